@@ -2,6 +2,7 @@
 
 #include "kernels/grid_task.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -10,6 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// counts of steps are whole numbers, whose sum has no order.
 /// @param integrate the lane program of one lane (kernels/integrate.hpp), called with the block.
 template <class Integrate> SLIDEWAY_HD void run_thread(GridTask const& task, Integrate const& integrate) {
+    SLIDEWAY_EXPECT(task.state != nullptr);
     Block block = task.block;
     GridState& state = *task.state;
     block.taken = &state.taken;

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -25,6 +26,7 @@ template <class Packed, class Record> SLIDEWAY_HD constexpr std::size_t record_n
 /// Moves a member's record into one lane of a pack's.
 template <class Packed, class Record> SLIDEWAY_HD void load_lane(Packed& pack, int index, Record const& record) {
     constexpr int width = detail::record_width<Packed, Record>;
+    SLIDEWAY_EXPECT(index >= 0 && index < width);
     auto const* from = reinterpret_cast<double const*>(&record);
     auto* to = reinterpret_cast<double*>(&pack) + index;
     for (std::size_t i = 0; i < detail::record_numbers<Packed, Record>(); ++i) to[i * width] = from[i];
@@ -33,6 +35,7 @@ template <class Packed, class Record> SLIDEWAY_HD void load_lane(Packed& pack, i
 /// Moves one lane of a pack's record into a member's.
 template <class Packed, class Record> SLIDEWAY_HD void store_lane(Packed const& pack, int index, Record& record) {
     constexpr int width = detail::record_width<Packed, Record>;
+    SLIDEWAY_EXPECT(index >= 0 && index < width);
     auto const* from = reinterpret_cast<double const*>(&pack) + index;
     auto* to = reinterpret_cast<double*>(&record);
     for (std::size_t i = 0; i < detail::record_numbers<Packed, Record>(); ++i) to[i] = from[i * width];

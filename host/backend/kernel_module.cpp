@@ -12,6 +12,9 @@
 #define SLIDEWAY_COMPILER "g++ " __VERSION__
 #endif
 
+#define SLIDEWAY_TEXT(word) SLIDEWAY_TEXT_OF(word)
+#define SLIDEWAY_TEXT_OF(word) #word
+
 // Packs cross the border.
 static constexpr int xsimd_of_the_program[] = {SLIDEWAY_KERNEL_XSIMD};
 static_assert(XSIMD_VERSION_MAJOR == xsimd_of_the_program[0] && XSIMD_VERSION_MINOR == xsimd_of_the_program[1] && XSIMD_VERSION_PATCH == xsimd_of_the_program[2],
@@ -38,6 +41,7 @@ extern "C" __attribute__((visibility("default"))) slideway::KernelModule const* 
         .sources = sources,
         .compiler = SLIDEWAY_COMPILER,
         .source = source,
+        .isa = SLIDEWAY_TEXT(SLIDEWAY_ISA),
 #if SLIDEWAY_TABLE_OF_LAW
         .law = &slideway::SLIDEWAY_ISA::SLIDEWAY_TABLE,
 #else

@@ -14,11 +14,12 @@ struct KernelModule {
     char const* compiler = nullptr;  // that compiled it; any that keeps the border will do
     // Of this interface.
     char const* source = nullptr;    // hash of a source outside the tree; "" of the tree's own
+    char const* isa = nullptr;       // the instruction set that it is compiled for
     MechanismKernels const* mechanism = nullptr;
     LawKernels const* law = nullptr;
 };
 
-inline constexpr int kernel_interface = 2;
+inline constexpr int kernel_interface = 3;
 inline constexpr char const* kernel_module_entry = "slideway_kernel_module";
 using KernelModuleEntry = KernelModule const*();
 

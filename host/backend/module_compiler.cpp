@@ -251,6 +251,8 @@ Task task_of(Toolchain const& tools, ModuleKind kind, Isa isa, Offer const& offe
                                fmt::format("-DSLIDEWAY_SOURCE_HASH=\"{}\"", offer.source), fmt::format("-DSLIDEWAY_TABLE_OF_LAW={}", is_law ? 1 : 0)});
     Task task{kind, isa, {}, flags, work / module_file_name(kind, "new", isa)};
     task.link.insert(task.link.end(), {"-shared", "-o", task.made.string()});
+    // What nobody defines is said by the linker, not by who opens the module; sanitizers define theirs in the program.
+    if (std::ranges::none_of(flags, [](std::string const& flag) { return flag.starts_with("-fsanitize"); })) task.link.push_back("-Wl,-z,defs");
     auto const backend = tools.includes.front() / "host/backend";
     auto const add_unit = [&](char const* source, std::string const& suffix, Words const& definitions) {
         Words unit = flags;

@@ -44,6 +44,19 @@ bool stands_for_nothing(std::string_view text) {
     return std::ranges::count(words, lower) > 0;
 }
 
+/// What spreadsheets write where a formula has no value, in any language: #N/A, #NV, #DIV/0!, #WERT!, #NOM?
+bool is_formula_error(std::string_view text) {
+    if (text == "#NV" || text == "#GETTING_DATA") return true;
+    bool const is_one = text.ends_with('!') || text.ends_with('?') || text.find('/') != text.npos;
+    return is_one && text.size() > 2 && text[0] == '#' && text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0/!?", 1) == text.npos;
+}
+
+/// Whether a line above the first row is a comment.
+bool is_comment(std::string_view row) {
+    if (row.starts_with('"')) row.remove_prefix(1);
+    return row.starts_with('#') && !is_formula_error(row.substr(0, row.find_first_of(",;\t\"")));
+}
+
 /// A number with a point in place of its decimal comma.
 struct MarkedNumber {
     CellNumber number;
@@ -94,11 +107,16 @@ bool CsvReader::read_line() {
 
 bool CsvReader::next() {
     while (read_line()) {
-        if (number_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // byte order mark
+        if (number_ == 1) begin();
         std::string_view const row = trimmed(text_);
-        bool const is_first = separator_ == '\0';
-        if (row.empty() || (is_first && (row.front() == '#' || row.starts_with("\"#")))) continue;
-        if (is_first) separator_ = separator_of(row, kind_ == Kind::series ? ' ' : ',');
+        bool const is_first = columns_ == 0;
+        if (row.empty() || (is_first && is_comment(row))) continue;
+        if (row.find('\r') != row.npos) fail("its lines end with CR alone; save it with LF or CR LF");
+        if (number_ == 1 && (row == "sep=;" || row == "sep=," || text_.starts_with("sep=\t"))) {
+            separator_ = text_[4];
+            continue;
+        }
+        if (is_first && separator_ == '\0') separator_ = separator_of(row, kind_ == Kind::series ? ' ' : ',');
         split();
         // Spreadsheets write separators as far as any row of theirs goes.
         while (fields_.size() > std::max<std::size_t>(columns_, 1) && fields_.back().empty()) fields_.pop_back();
@@ -106,6 +124,11 @@ bool CsvReader::next() {
         return true;
     }
     return false;
+}
+
+void CsvReader::begin() {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // byte order mark
+    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) fail("it is text of UTF-16; save it as UTF-8");
 }
 
 std::string_view CsvReader::separator_word() const {
@@ -175,6 +198,8 @@ std::optional<CellFault> CsvReader::read_number(std::size_t column, CellNumber& 
 }
 
 bool CsvReader::is_number(std::size_t column) const { return marked_number(fields_[column], separator_ != ',').has_value(); }
+
+bool CsvReader::is_spreadsheet_error(std::size_t column) const { return is_formula_error(fields_[column]); }
 
 bool CsvReader::is_missing(std::size_t column) const { return stands_for_nothing(fields_[column]); }
 

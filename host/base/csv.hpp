@@ -22,8 +22,8 @@ struct CellFault {
     std::string advice;  // "" where only the caller knows what to write instead
 };
 
-/// Reads rows and knows where it is.  Empty lines are skipped, above the first row also lines that begin with #: further down such a
-/// line is a row, for spreadsheets write #N/A.  Blanks around cells count for nothing.  A cell in double quotes may hold separators, and
+/// Reads rows and knows where it is.  Empty lines are skipped, above the first row also lines that begin with #, but for those that begin with an error
+/// of a spreadsheet (#N/A); further down all such lines are rows.  A first line `sep=;` is Excel's, for what separates cells.  Blanks around cells count for nothing.  A cell in double quotes may hold separators, and
 /// "" for a quote; it ends on its own line.
 ///
 /// The first row says what separates cells: semicolons, else tabs, else commas; commas between digits beside tabs are decimal marks, and
@@ -45,6 +45,8 @@ public:
     /// Whether a cell is a number, or empty or a word for that: NA, NaN, null, …
     bool is_number(std::size_t column) const;
     bool is_missing(std::size_t column) const;
+    /// Whether a cell is what a spreadsheet writes where a formula has no value: #N/A, #DIV/0!, …
+    bool is_spreadsheet_error(std::size_t column) const;
     /// Refuses a row with more or fewer cells than the first.
     void require_columns() const;
 
@@ -54,6 +56,7 @@ public:
 
 private:
     bool read_line();
+    void begin();  // the first line
     void split();
     std::string take_quoted(std::string_view& rest) const;
     std::string_view separator_word() const;

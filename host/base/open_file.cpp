@@ -80,6 +80,8 @@ std::unique_ptr<std::istream> file_stream(std::string const& path) {
     return stream;
 }
 
+std::string InputText::why() const { return error == EPIPE ? "nobody writes to this pipe" : std::strerror(error); }
+
 InputText read_input(std::string const& path, std::size_t most) {
     InputText input;
     int const file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -100,7 +102,7 @@ std::unique_ptr<std::istream> input_stream(std::string const& path) {
     if (is_file(path)) return file_stream(path);
     constexpr std::size_t most = std::size_t{1} << 28;
     InputText input = read_input(path, most);
-    if (input.error != 0) throw cannot(path, "read", input.error);
+    if (input.error != 0) throw FileError(fmt::format("{}: cannot read: {}", path, input.why()));
     if (input.text.size() > most) throw FileError(path + ": is larger than 256 MiB; give the name of a file");
     return std::make_unique<std::istringstream>(std::move(input.text));
 }

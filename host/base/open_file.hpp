@@ -42,6 +42,7 @@ std::unique_ptr<std::istream> file_stream(std::string const& path);
 struct InputText {
     std::string text;  // at most one byte more than asked for
     int error = 0;     // errno of what failed
+    std::string why() const;  // in words
 };
 InputText read_input(std::string const& path, std::size_t most);
 

@@ -19,8 +19,8 @@ std::optional<ToleranceReport> report_of(ResultReader const& results) {
         Scene const scene = parse_scene(results.attribute("scene"), results.path());
         if (asks_for_report(scene)) return tolerance_report(results, scene);
     } catch (SceneError const& error) {
-        // Of another version, or its table of members is elsewhere.
-        tell("warning: {}\n", error.what());
+        // Of another version, or its table of members or a module is elsewhere.
+        tell("warning: {}; without it there are no intervals, yields, correlations and shares of variance below\n", error.what());
     }
     return {};
 }

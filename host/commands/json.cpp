@@ -1,5 +1,6 @@
 #include "host/commands/json.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -55,12 +56,21 @@ Json of_members(ResultReader const& results, MemberRange const& range) {
 }
 
 /// The first of those that did not finish, with what columns of text of the scene's table call them.
+/// What the table of a scene calls a member, or where there is no scene the result.
+std::string label_of(ResultReader const& results, Scene const* scene, std::uint64_t member) {
+    if (scene != nullptr) return slideway::label_of(*scene, member);
+    if (!results.has("member_label")) return {};
+    std::vector<double> const members = results.values("member");
+    auto const place = std::ranges::lower_bound(members, static_cast<double>(member)) - members.begin();
+    return results.texts("member_label").at(static_cast<std::size_t>(place));
+}
+
 Json of_failed(ResultReader const& results, Scene const* scene) {
     constexpr std::size_t most = 100;
     Json list = Json::array();
     for (FailedMember const& member : failed_members(results, most)) {
         list.push_back({{"member", member.member}, {"status", name_of(member.status)}, {"end_time", number(member.time)}});
-        std::string const label = scene != nullptr ? label_of(*scene, member.member) : "";
+        std::string const label = label_of(results, scene, member.member);
         if (!label.empty()) list.back()["label"] = label;
     }
     return list;

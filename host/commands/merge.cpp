@@ -101,12 +101,13 @@ int execute(MergeArguments const& arguments) {
         return left == 0 ? exit_code::done : exit_code::stopped_early;
     }
     // Of the commands that repeat failed members; starts are looked at for them alone.
-    replay.any_start = !failed_members(results, 1).empty() && impossible_starts(scene, best_isa(scene.parts));
+    bool const some_failed = !failed_members(results, 1).empty();
+    replay.any_start = some_failed && impossible_starts(scene, best_isa(scene.parts));
     print_field("scene", scene_text(scene, scene_path));
     print_results(replay, scene, results, report);
     print_out("\n");
     print_field("results", fmt::format("{}{}; {}", arguments.output, target.replaces() ? " (replaced a former file)" : "",
-                                       words_on_need(folder, arguments.output)));
+                                       words_on_need(folder, arguments.output, some_failed)));
     if (left == 0) return exit_code::done;
     tell("slideway: {} of {} members have not run; run them and merge again\n", left,
                folder.identity().members.count());

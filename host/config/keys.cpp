@@ -133,6 +133,8 @@ std::string objection_to(ModuleKind kind, KernelModule const& module) {
             return fmt::format("its key {} stands twice, or another one is on the same input", key.name);
         if (std::ranges::find(settings(), key.name, &Setting::name) != settings().end()) return fmt::format("scenes have a key {} already; give it another name", key.name);
         if (std::isnan(key.preset) && (key.derivation.empty() || !is_law)) return fmt::format("its key {} has no default; give it a number", key.name);
+        if (auto const problem = broken_rule(key, key.preset); problem && !std::isnan(key.preset))
+            return fmt::format("its key {} has the default {}, which its rule refuses ({})", key.name, key.preset, problem->reason);
         if (!is_plain_si(key.unit)) return fmt::format("its key {} has the unit \"{}\", which is none of SI without a prefix", key.name, key.unit);
         Key const* const known = find_key(key.name);
         if (known == nullptr) continue;
@@ -239,7 +241,10 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
         // A number of a law or mechanism that it takes from others.
         bool const own = key.group == KeyGroup::law || key.group == KeyGroup::mechanism;
         if (own && std::isnan(key.preset) && std::isnan(key.get(in))) continue;
-        if (auto problem = broken_rule(key, key.get(in))) return Defect{&key, nullptr, key.get(in), *problem};
+        auto problem = broken_rule(key, key.get(in));
+        if (!problem) continue;
+        if (std::isnan(key.get(inputs))) problem->reason += fmt::format(", and follows from {}", derivation_of(key, parts, in));
+        return Defect{&key, nullptr, key.get(in), *problem};
     }
     auto const clash = [&](std::string_view name, std::string_view other, std::string reason, std::string advice) {
         Key const* const key = find_key(name);

@@ -63,6 +63,8 @@ Outputs const& outputs_of(Mechanism mechanism) {
 
 std::string objection_to_signals(MechanismInfo const& mechanism) {
     for (Signal const& signal : mechanism.signals) {
+        if (signal.name == nullptr) return "one of its signals has no name";
+        if (signal.unit == nullptr || signal.meaning == nullptr) return fmt::format("its signal {} has no {}", signal.name, signal.unit == nullptr ? "unit" : "meaning");
         std::string_view const name = signal.name;
         if (!is_module_name(name) || name.starts_with("final_") || name.starts_with("d_"))
             return fmt::format("its signal \"{}\" has no name of at most 60 small letters, digits and '_', a letter first, and no final_ or d_", name);

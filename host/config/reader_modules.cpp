@@ -6,8 +6,12 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/backend/backend.hpp"
+#include "host/backend/module_files.hpp"
+#include "host/backend/own_modules.hpp"
+#include "host/base/suggest.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
@@ -28,7 +32,14 @@ void read_named(Node const* node, ModuleKind kind, std::span<std::string_view co
     std::vector<std::string_view> names(known.begin(), known.end());
     auto const own = own_module_names(kind, scene.modules);
     names.insert(names.end(), own.begin(), own.end());
-    refuse(*node, {fmt::format("there is no such {}", what), choice_advice(node->text, names)});
+    std::string advice = choice_advice(node->text, names);
+    // A name that is like none is of a module that is not there, or of another version of slideway.
+    if (is_module_name(node->text) && nearest_name(node->text, names).empty()) {
+        std::vector<std::string> folders;
+        for (auto const& folder : module_folders(scene.modules)) folders.push_back(folder.string());
+        advice += fmt::format(", or compile its header with slideway compile (modules of this version are looked for in {})", fmt::join(folders, ", "));
+    }
+    refuse(*node, {fmt::format("there is no such {}", what), advice});
 }
 
 /// Where --set names another law than the file, the file may have keys of its own one: that is opened too, whichever it is.

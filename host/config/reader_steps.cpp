@@ -18,11 +18,20 @@ std::uint64_t default_max_steps(RunLength const& length, double max_step) {
     return static_cast<std::uint64_t>(std::min(steps, largest));
 }
 
+void warn_of_many(Scene& scene, std::string_view key, double step, double steps) {
+    constexpr double many = 1e10;  // hours of a lane
+    if (steps > many && steps <= static_cast<double>(most_steps))
+        scene.warnings.push_back(fmt::format("{} is {} s: a member takes {:.3g} steps or more", key, step, steps));
+}
+
 /// Fixed steps are known beforehand, but for what the rounding of the time adds to very many.
-void read_fixed_steps(Node const& root, IntegratorSettings& settings, RunLength const& length) {
+void read_fixed_steps(Node const& root, Scene& scene, RunLength const& length) {
+    IntegratorSettings& settings = scene.integrator;
     IntegratorSettings longest = settings;
     longest.end_time = length.longest;
-    double const steps = fixed_steps(longest) + length.stops, enough = 1000 + std::ceil(1.001 * steps);
+    double const steps = fixed_steps(longest) + length.stops;
+    warn_of_many(scene, "integrator.step", settings.fixed_step, steps);
+    double const enough = 1000 + std::ceil(1.001 * steps);
     if (!(enough <= static_cast<double>(most_steps))) {
         refuse(*root.find_path("integrator.step"),
                {fmt::format("that makes {:.3g} steps", steps), "use a larger one, or method \"auto\""});
@@ -55,7 +64,7 @@ void read_steps(Node const& root, Scene& scene, RunLength const& length) {
     if (Node const* const dt = root.find_path("study.dt"); dt != nullptr && length.stops > static_cast<double>(most_steps)) {
         refuse(*dt, {fmt::format("that makes {:.3g} rescalings", length.stops), "use a larger one"});
     }
-    if (has_fixed_step(settings.method)) return read_fixed_steps(root, settings, length);
+    if (has_fixed_step(settings.method)) return read_fixed_steps(root, scene, length);
     double least = length.longest / settings.max_step;
     for (std::string_view const name : {"integrator.max_step", "integrator.stiff_max_step"}) {
         Setting const& of = setting(name);
@@ -64,8 +73,7 @@ void read_steps(Node const& root, Scene& scene, RunLength const& length) {
         check_largest_step(root, of, largest, length);
         least = std::min(least, length.longest / largest);
     }
-    constexpr double many = 1e10;  // hours of a lane
-    if (least > many) scene.warnings.push_back(fmt::format("integrator.max_step is {} s: a member takes {:.3g} steps or more", settings.max_step, least));
+    warn_of_many(scene, "integrator.max_step", settings.max_step, least);
     Node const* const node = root.find_path("integrator.max_steps");
     if (node == nullptr) {
         settings.max_steps = default_max_steps(length, settings.max_step);

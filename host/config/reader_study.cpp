@@ -44,23 +44,13 @@ EndTime read_end_time(Node const& root, Scene const& scene) {
     return {seconds, revolutions};
 }
 
-/// The drive's place follows from the time alone.  The last bit of a double moves a crank pin after N revolutions by 2π N ε r.
 void check_drive_is_resolved(Node const& root, Scene const& scene, double seconds) {
-    double const turn = drive_period(scene.parts, scene.inputs);
-    if (!std::isfinite(turn)) return;
-    bool const cranks = info(scene.parts.mechanism).drive == DriveKind::crank;
-    double const radius = cranks ? scene.inputs.crank_length : scene.inputs.stroke / 2;
-    constexpr double of_clearance = 1e-6;
-    double const per_turn = 2 * std::numbers::pi * std::numeric_limits<double>::epsilon() * radius;
-    double const most = of_clearance * scene.inputs.clearance_y / per_turn, turns = seconds / turn;
-    if (!(turns > most)) return;
-    std::string const reason = fmt::format("after {:.3g} {} the last bit of a number of double precision moves the drive by {:.2g} of the clearance",
-                                           turns, cranks ? "revolutions" : "cycles", of_clearance * turns / most);
-    std::string const advice = fmt::format("stay below {:.2g} s, or run several members", most * turn);
+    auto const problem = unresolved_drive(scene.parts, scene.inputs, seconds);
+    if (!problem) return;
     for (char const* const key : {"study.revolutions", "study.duration"}) {
-        if (Node const* const node = root.find_path(key)) refuse(*node, {reason, advice});
+        if (Node const* const node = root.find_path(key)) refuse(*node, *problem);
     }
-    throw SceneError(fmt::format("{}: the study is too long: {}; {}", root.where, reason, advice));
+    throw SceneError(fmt::format("{}: the study is too long: {}; {}", root.where, problem->reason, problem->advice));
 }
 
 /// The node that asks for a time series, and how many times it has.
@@ -169,6 +159,20 @@ void check_keys(Node const& root, StudyKind kind) {
 }
 
 }  // namespace
+
+std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs, double seconds) {
+    double const turn = drive_period(parts, inputs);
+    if (!std::isfinite(turn)) return {};
+    bool const cranks = info(parts.mechanism).drive == DriveKind::crank;
+    double const radius = cranks ? inputs.crank_length : inputs.stroke / 2;
+    constexpr double of_clearance = 1e-6;
+    double const per_turn = 2 * std::numbers::pi * std::numeric_limits<double>::epsilon() * radius;
+    double const most = of_clearance * inputs.clearance_y / per_turn, turns = seconds / turn;
+    if (!(turns > most)) return {};
+    return Problem{fmt::format("after {:.3g} {} the last bit of a number of double precision moves the drive by {:.2g} of the clearance", turns,
+                               cranks ? "revolutions" : "cycles", of_clearance * turns / most),
+                   fmt::format("stay below {:.2g} s, or run several members", most * turn)};
+}
 
 std::vector<double> uniform_times(double end_time, std::size_t count) {
     std::vector<double> times(count);

@@ -1,7 +1,5 @@
 // study.table: one member a row, as measured or as drawn elsewhere.
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
@@ -37,7 +35,7 @@ std::string read_bytes(Node const& node, std::string const& path) {
     InputText input = read_input(path, largest);
     if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
     if (input.error != 0) {
-        refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path), std::strerror(input.error)), "check the path, from the scene's folder on"});
+        refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path), input.why()), "check the path, from the scene's folder on"});
     }
     return std::move(input.text);
 }
@@ -54,8 +52,7 @@ Node field_node(CsvReader const& table, std::string name, std::string text) {
 }
 
 [[noreturn]] void refuse_column(Node const& header) {
-    std::string_view const name = trimmed(std::string_view(header.text).substr(0, header.text.find('[')));
-    refuse(header, {"only numeric keys of the physics can be columns", key_advice(name)});
+    refuse(header, {"only numeric keys of the physics can be columns", key_advice(column_header(header.text).name)});
 }
 
 /// Whether a header may be that of texts: it has no unit, is like no key, and does not begin with a table of keys.
@@ -67,20 +64,14 @@ bool may_name_texts(std::string_view header) {
 
 /// "joint.clearance [mm]": the key, and how its numbers become SI ones; or "part", above texts.
 Column read_column(Node const& node) {
-    auto const bracket = node.text.find('[');
-    std::string const name(trimmed(std::string_view(node.text).substr(0, bracket)));
-    Column column{find_key(name), UnitFactor(1), {}, node};
+    ColumnHeader const header = column_header(node.text);
+    Column column{find_key(header.name), UnitFactor(1), {}, node};
     if (column.key == nullptr) {
         if (!may_name_texts(node.text)) refuse_column(node);
         return column;
     }
-    column.unit = column.key->unit;
-    if (bracket == node.text.npos) return column;
-    if (!node.text.ends_with(']')) {
-        refuse(node, {"its unit has no end", fmt::format("write \"{} [{}]\"", name, column.key->unit)});
-    }
-    column.unit = trimmed(std::string_view(node.text).substr(bracket + 1, node.text.size() - bracket - 2));
-    auto const factor = unit_factor(column.unit, column.key->unit);
+    column.unit = header.unit.value_or(std::string(column.key->unit));
+    auto const factor = header.factor_to(column.key->unit);
     if (auto const* problem = std::get_if<Problem>(&factor)) refuse(node, *problem);
     column.factor = std::get<UnitFactor>(factor);
     return column;
@@ -191,6 +182,8 @@ private:
     void add_text(std::size_t place, std::string& label) {
         std::string const& text = rows_.fields()[place];
         Column& column = columns_[place];
+        if (rows_.is_spreadsheet_error(place))
+            refuse(field_node(rows_, fmt::format("{} (column {})", column.header.text, place + 1), text), {"an error of the spreadsheet", "correct its formula, or remove the row"});
         if (rows_.is_missing(place)) {
             column.has_missing = column.has_missing || !text.empty();
             return;

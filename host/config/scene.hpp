@@ -150,6 +150,10 @@ void prepare_sampler(Scene& scene);
 /// In a sweep members [0, members) are the starts of the first column, and so on: each column has the same starts.
 Inputs member_inputs(Scene const& scene, std::uint64_t member);
 
+/// Why the place of a drive is not known well enough at the end, or nothing: it follows from the time alone, and the last bit of a double moves a crank
+/// pin after N revolutions by 2π N ε r.
+std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs, double seconds);
+
 /// The value that member draws for a variation, in SI units.
 double draw(Scene const& scene, Variation const& variation, std::uint64_t member);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -41,7 +40,7 @@ std::string read_scene_text(std::string const& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse_file(path, "it is a directory", "name a scene file in it");
     InputText input = read_input(path, largest_file);
-    if (input.error != 0) refuse_file(path, std::strerror(input.error), "check the path and its permissions");
+    if (input.error != 0) refuse_file(path, input.why(), "check the path and its permissions");
     if (input.text.size() > largest_file) refuse_file(path, "it is larger than 1 MiB", "name a scene file, which is text");
     return std::move(input.text);
 }

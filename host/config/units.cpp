@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include "host/base/csv.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
 
@@ -269,6 +270,21 @@ std::variant<double, Problem> to_si(std::string_view text, std::string_view unit
         return Problem{fmt::format("beyond the range of double in {}", unit), "use another number"};
     }
     return si;
+}
+
+ColumnHeader column_header(std::string_view text) {
+    auto const bracket = text.find('[');
+    ColumnHeader header{std::string(trimmed(text.substr(0, bracket))), {}};
+    if (bracket == text.npos) return header;
+    header.is_open = !text.ends_with(']');
+    header.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - (header.is_open ? 1 : 2)));
+    return header;
+}
+
+std::variant<UnitFactor, Problem> ColumnHeader::factor_to(std::string_view si_unit) const {
+    if (!unit) return UnitFactor(1);
+    if (is_open) return Problem{"its unit has no end", fmt::format("write \"{} [{}]\"", name, si_unit)};
+    return unit_factor(*unit, si_unit);
 }
 
 bool is_plain_si(std::string_view unit) {

@@ -1,6 +1,8 @@
 // Numbers with units, by UDUNITS-2.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -29,6 +31,16 @@ private:
 };
 /// The factor from `given` ("mm") to the SI unit `unit`, or why there is none.  @throws FileError as `to_si`
 std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit);
+
+/// What stands above a column: "joint.clearance [mm]", a name and perhaps the unit of its numbers.
+struct ColumnHeader {
+    std::string name;
+    std::optional<std::string> unit;
+    /// To an SI unit.  @throws nothing of its own; a Problem where the unit has no end, or is of something else
+    std::variant<UnitFactor, Problem> factor_to(std::string_view si_unit) const;
+    bool is_open = false;  // its bracket does not end
+};
+ColumnHeader column_header(std::string_view text);
 
 /// Whether a unit is "1", or made of units of SI without prefixes (but kg), as "N s/m" is: values are taken as they are.
 bool is_plain_si(std::string_view unit);

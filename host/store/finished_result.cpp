@@ -38,8 +38,9 @@ std::string why_not_finished(std::string const& path, RunIdentity const& identit
     }
 }
 
-std::string words_on_need(ShardFolder const& folder, std::string const& result) {
+std::string words_on_need(ShardFolder const& folder, std::string const& result, bool names_scene) {
     std::string const why = why_not_finished(result, folder.identity());
+    if (why.empty() && names_scene) return folder.path() + " is needed for the scene that the commands above read, and for nothing else";
     if (why.empty()) return folder.path() + " is no longer needed";
     return fmt::format("{} is still needed: {}", folder.path(), why);
 }

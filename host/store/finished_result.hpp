@@ -17,6 +17,7 @@ std::string why_not_finished(std::string const& result, RunIdentity const& ident
 
 /// What a user hears of a folder of shards of which a result was made: that it is no longer needed, if the result is there, sealed and
 /// complete, or that it still is, and why.  No other words of the program let anybody remove anything (tests/structure looks for them).
-std::string words_on_need(ShardFolder const& folder, std::string const& result);
+/// @param names_scene words before these name the scene in the folder
+std::string words_on_need(ShardFolder const& folder, std::string const& result, bool names_scene);
 
 }  // namespace slideway

@@ -17,19 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a chain of links ends at, there or not.
-std::string followed(std::string const& path) {
-    constexpr int most = 40;  // as Linux
-    fs::path place = path;
-    std::error_code ignored;
-    for (int links = 0; fs::is_symlink(place, ignored); ++links) {
-        if (links == most) throw FileError(path + ": is a link that leads to itself; give another name with -o");
-        fs::path const next = fs::read_symlink(place, ignored);
-        place = next.is_absolute() ? next : place.parent_path() / next;
-    }
-    return place.string();
-}
-
 /// Before a library tries: its reasons for a folder ("HDF error") tell nobody what to do.
 void require_writable_place(std::string const& name, std::string const& path) {
     std::error_code ignored;
@@ -47,6 +34,18 @@ void require_writable_place(std::string const& name, std::string const& path) {
 }
 
 }  // namespace
+
+std::string followed(std::string const& path) {
+    constexpr int most = 40;  // as Linux
+    fs::path place = path;
+    std::error_code ignored;
+    for (int links = 0; fs::is_symlink(place, ignored); ++links) {
+        if (links == most) throw FileError(path + ": is a link that leads to itself; give another name with -o");
+        fs::path const next = fs::read_symlink(place, ignored);
+        place = next.is_absolute() ? next : place.parent_path() / next;
+    }
+    return place.string();
+}
 
 OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : name_(path), path_(followed(path)) {
     require_writable_place(name_, path_);

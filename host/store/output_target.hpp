@@ -19,6 +19,9 @@ struct OutputRules {
     char const* instead = "add --force to replace it, or give another name with -o";  // where one is there, and not forced
 };
 
+/// What a chain of links ends at, there or not: a file has one name, by whichever it is asked for.  @throws FileError where links lead to themselves
+std::string followed(std::string const& path);
+
 /// Where a command writes, found out before anything is computed.
 class OutputTarget {
 public:

@@ -141,7 +141,7 @@ SealCheck check_seal(NetcdfFile const& file) {
 
 std::string SealCheck::damage() const {
     if (intact()) return {};
-    if (data_match() && metadata_match()) return fmt::format("holds what slideway did not write, and no hash covers ({})", foreign);
+    if (is_only_added_to()) return fmt::format("holds what slideway did not write, and no hash covers ({})", foreign);
     if (metadata_match()) return "the data do not match their hash";
     return data_match() ? "the attributes, names or group verification do not match their hash"
                         : "neither the data nor the attributes match their hashes";

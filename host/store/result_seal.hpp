@@ -37,6 +37,7 @@ struct SealCheck {
     bool data_match() const { return payload == payload_found; }
     bool metadata_match() const { return version == 1 ? metadata.empty() : metadata == metadata_found; }
     bool intact() const { return data_match() && metadata_match() && foreign.empty(); }
+    bool is_only_added_to() const { return data_match() && metadata_match() && !foreign.empty(); }
     /// Which part is damaged, in words: "the data do not match their hash"; "" of an intact file.
     std::string damage() const;
 };

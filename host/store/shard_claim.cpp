@@ -54,15 +54,21 @@ std::unique_ptr<FileLock> make_and_lock(std::string const& folder) {
     }
 }
 
+/// By its name, if it is a file: folders and pipes are nobody's of a run, whatever their names.
+ShardFile kind_in(std::string const& folder, std::string_view name) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(in_folder(folder, name), ignored) ? kind_of(name) : ShardFile::foreign;
+}
+
 bool holds(std::string const& folder, ShardFile kind) {
     for (std::string const& name : names_in(folder)) {
-        if (kind_of(name) == kind) return true;
+        if (kind_in(folder, name) == kind) return true;
     }
     return false;
 }
 
 /// Whether somebody began to remove the folder.
-bool is_finished(std::string const& folder) { return is_there(in_folder(folder, shard_names::finished)); }
+bool is_finished(std::string const& folder) { return kind_in(folder, shard_names::finished) == ShardFile::identity; }
 
 /// What a process left that was killed in `remove_folder`; of its last steps only locks, or nothing.
 bool is_remains(std::string const& folder) {
@@ -102,7 +108,7 @@ ShardClaim::ShardClaim(std::string folder) : folder_(std::move(folder)) {
 /// Parts of another division have members in common with this one.
 void ShardClaim::require_one_division(std::string const& part) const {
     for (std::string const& name : names_in(folder_)) {
-        if (kind_of(name) != ShardFile::lock || division_of(name).empty()) continue;
+        if (kind_in(folder_, name) != ShardFile::lock || division_of(name).empty()) continue;
         if (division_of(name) == division_of(part)) continue;
         std::string const other = name.substr(shard_names::lock.size() + 1);
         std::string const detail = fmt::format(", part {} of another division than part {}", other, part);
@@ -111,6 +117,8 @@ void ShardClaim::require_one_division(std::string const& part) const {
 }
 
 void ShardClaim::begin(Wanted const& wanted) {
+    std::string const end = in_folder(folder_, shard_names::finished);
+    if (is_there(end) && !is_finished(folder_)) throw FileError(end + ": is no file; move it away");
     std::string changed;
     if (ShardFolder::exists(folder_)) {
         ShardFolder const folder(folder_);
@@ -188,10 +196,12 @@ void ShardClaim::require_alone(Wanted const& wanted) {
 void ShardClaim::remove_content(bool own_table) {
     std::vector<std::string> const listed = listed_names(folder_);
     for (std::string const& name : names_in(folder_)) {
-        if (kind_of(name) != ShardFile::content || (name == shard_names::table && !own_table)) continue;
+        bool const is_listed = std::ranges::binary_search(listed, name);
+        ShardFile const kind = is_listed ? kind_of(name) : kind_in(folder_, name);
+        if (kind != ShardFile::content || (name == shard_names::table && !own_table)) continue;
         std::string const path = in_folder(folder_, name);
         bool const is_shard = (name.starts_with(shard_names::members) || name.starts_with(shard_names::statistics)) && !name.ends_with(".tmp");
-        if (!is_shard || std::ranges::binary_search(listed, name) || is_shard_within(path)) remove_file(path);
+        if (!is_shard || is_listed || is_shard_within(path)) remove_file(path);
     }
 }
 
@@ -208,7 +218,7 @@ std::vector<std::string> ShardClaim::remove_folder() {
     sync_folder(folder_);
     for (ShardFile const kind : {ShardFile::identity, ShardFile::lock}) {
         for (std::string const& name : names_in(folder_)) {
-            if (kind_of(name) == kind) remove_file(in_folder(folder_, name));
+            if (kind_in(folder_, name) == kind) remove_file(in_folder(folder_, name));
         }
     }
     // ENOTDIR: a link to a folder, which somebody made elsewhere for this.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/study/member_numbers.hpp"
+#include "host/study/orbit_schedule.hpp"
 #include "host/study/probe.hpp"
 #include "host/study/result_summary.hpp"
 
@@ -33,6 +34,7 @@ struct Look {
     std::vector<Start> starts;  // of those that draw what can be used
     std::uint64_t invalid = 0, first_invalid = 0;
     std::string why_invalid;
+    std::optional<std::pair<std::uint64_t, Problem>> unresolved;  // the first whose drive is not
 };
 
 Look look_at(Scene const& scene, Isa isa) {
@@ -41,11 +43,16 @@ Look look_at(Scene const& scene, Isa isa) {
     std::vector<Start>& starts = look.starts;
     std::vector<Inputs> inputs;
     bool const spatial = info(scene.parts.mechanism).spatial;
+    OrbitSchedule const schedule = orbit_schedule(scene);
     for (std::uint64_t const member : spread_over(member_count(scene), look.members)) {
         Inputs const drawn = member_inputs(scene, member);
         if (auto const found = defect(drawn, scene.parts)) {
             if (look.invalid++ == 0) look.first_invalid = member, look.why_invalid = *found;
             continue;
+        }
+        if (!look.unresolved) {
+            auto problem = unresolved_drive(scene.parts, drawn, schedule.timing ? schedule.timing(drawn).end : schedule.end);
+            if (problem) look.unresolved = {member, *std::move(problem)};
         }
         starts.push_back({member, spatial ? std::min(drawn.clearance_y, drawn.clearance_z) : drawn.clearance_y, {}});
         inputs.push_back(drawn);
@@ -82,6 +89,11 @@ std::optional<std::string> broken_draws(Scene const& scene, std::vector<Start> c
         return fmt::format("{} be evaluated at the start ({})", all == 1 ? "its mechanism cannot" : "no member can", name_of(starts.front().at.status));
     }
     auto const inside = std::ranges::count_if(starts, &Start::is_inside);
+    // The values of a sweep are given, not drawn.
+    if (scene.study == StudyKind::sweep && nowhere > 0) {
+        Start const& first = *std::ranges::find_if(starts, &Start::is_nowhere);
+        return fmt::format("member {} cannot be evaluated at the start ({})", first.member, name_of(first.at.status));
+    }
     if (inside == 0) return {};
     auto const deeper = [](Start const& a, Start const& b) { return (a.is_inside() ? a.depth() : 0) < (b.is_inside() ? b.depth() : 0); };
     Start const& worst = *std::ranges::max_element(starts, deeper);
@@ -91,6 +103,13 @@ std::optional<std::string> broken_draws(Scene const& scene, std::vector<Start> c
 }
 
 bool is_of_a_file(Scene const& scene) { return scene.design.table != nullptr && !scene.design.table->lines.empty(); }
+
+std::string unresolved_text(Scene const& scene, std::pair<std::uint64_t, Problem> const& found) {
+    auto const& [member, problem] = found;
+    std::string const where = is_of_a_file(scene) ? fmt::format("{}:{}", scene.design.table->name, scene.design.table->lines[static_cast<std::size_t>(member)])
+                                                  : fmt::format("{}: member {}", scene.path, member);
+    return fmt::format("{}: the study is too long: {}; {}", where, problem.reason, problem.advice);
+}
 
 std::optional<std::string> impossible_starts(Scene const& scene, Look const& look) {
     // Members whose inputs come from a program fail alone, as draws do.
@@ -110,12 +129,13 @@ std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) { retu
 
 std::optional<std::string> admit(Scene const& scene, bool any_start) {
     Look const look = look_at(scene, best_isa(scene.parts));
+    if (look.unresolved) throw SceneError(unresolved_text(scene, *look.unresolved));
     auto const wrong = impossible_starts(scene, look);
     if (!wrong) return invalid_draws(scene, look);
     if (any_start) return wrong;
     bool const has_place = is_of_a_file(scene);
     throw SceneError(fmt::format("{}{}; change {}, or add --any-start", has_place ? "" : scene.path + ": ", *wrong,
-                                 has_place ? "the row" : "[initial] or [joint]"));
+                                 has_place ? "the row" : "[initial], [joint] or [mechanism]"));
 }
 
 }  // namespace slideway

@@ -11,12 +11,14 @@
 #include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
+#include "host/config/units.hpp"
 
 namespace slideway {
 namespace {
 
 struct Table {
-    std::vector<std::string> names;  // empty: no header
+    std::vector<std::string> names;           // empty: no header
+    std::vector<ColumnHeader> headers = {};   // of the names
     std::vector<std::vector<double>> columns;
     std::vector<std::string> faults;  // of each column what its first cell without a number is, and where; "" of numbers throughout
 
@@ -38,8 +40,12 @@ Table read_table(std::istream& in, std::string const& name) {
     table.faults.resize(count);
     bool has_number = false;
     for (std::size_t i = 0; i < count; ++i) has_number = has_number || rows.is_number(i);
+    for (std::size_t i = 0; i < count && !has_number; ++i) {
+        if (rows.is_spreadsheet_error(i)) rows.fail(fmt::format("column {} is \"{}\" (an error of the spreadsheet); correct its formula, or remove the row", i + 1, rows.fields()[i]));
+    }
     if (!has_number) {
         table.names = rows.fields();
+        for (std::string const& text : table.names) table.headers.push_back(column_header(text));
         if (!rows.next()) rows.fail("the table has a header but no row");
     }
     do {
@@ -58,8 +64,8 @@ Table read_table(std::istream& in, std::string const& name) {
 }
 
 std::optional<std::size_t> time_column(Table const& table) {
-    auto const found = std::ranges::find_if(table.names, [](std::string const& name) { return name == "time" || name == "t"; });
-    return found == table.names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - table.names.begin()));
+    auto const found = std::ranges::find_if(table.headers, [](ColumnHeader const& header) { return header.name == "time" || header.name == "t"; });
+    return found == table.headers.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - table.headers.begin()));
 }
 
 std::size_t column_place(Table const& table, std::string const& table_name, std::string const& wanted) {
@@ -67,6 +73,8 @@ std::size_t column_place(Table const& table, std::string const& table_name, std:
     if (wanted.empty()) return time_column(table) == count - 1 && count > 1 ? count - 2 : count - 1;
     auto const named = std::ranges::find(table.names, wanted);
     if (named != table.names.end()) return static_cast<std::size_t>(named - table.names.begin());
+    auto const bare = std::ranges::find(table.headers, wanted, &ColumnHeader::name);
+    if (bare != table.headers.end()) return static_cast<std::size_t>(bare - table.headers.begin());
     auto const place = parse_number<std::size_t>(wanted);
     if (place && *place >= 1 && *place <= count) return *place - 1;
     std::string const known = table.names.empty() ? "" : fmt::format("one of {}, or ", fmt::join(table.names, ", "));
@@ -182,13 +190,18 @@ StoredSeries read_csv_series(std::istream& in, std::string const& name, std::str
     Table const table = read_table(in, name);
     if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
     std::size_t const place = column_place(table, name, column);
+    std::vector<double> const& values = table.numbers(place);
     if (!spacing) {
         auto const time = time_column(table);
         if (!time) throw SceneError(fmt::format("{}: has no column time or t; give --dt SECONDS", name));
         spacing = equal_spacing(table.numbers(*time));
+        auto const factor = table.headers[*time].factor_to("s");
+        if (auto const* problem = std::get_if<Problem>(&factor))
+            throw SceneError(fmt::format("{}: column {}: {}; {}", name, table.label(*time), problem->reason, problem->advice));
+        if (spacing) spacing = std::get<UnitFactor>(factor)(fmt::format("{}", *spacing), *spacing);
         if (!spacing) throw SceneError(fmt::format("{}: the times are not equally spaced; resample the series", name));
     }
-    return {table.label(place), "", table.numbers(place), *spacing};
+    return {table.label(place), "", values, *spacing};
 }
 
 }  // namespace slideway

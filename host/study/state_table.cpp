@@ -11,6 +11,7 @@
 #include "host/base/csv.hpp"
 #include "host/base/suggest.hpp"
 #include "host/config/descriptors.hpp"
+#include "host/config/units.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/members/start.hpp"
 
@@ -24,6 +25,8 @@ struct Column {
     std::string name;
     std::size_t state = 0;  // its place
     Key const* key = nullptr;
+    std::string unit = {};  // of its numbers, where its header says it
+    UnitFactor factor = UnitFactor(1);
 };
 
 std::vector<std::string_view> state_names(Mechanism mechanism) {
@@ -78,10 +81,25 @@ Column input_column(std::string_view name, Mechanism mechanism, CsvReader const&
     return column;
 }
 
+/// The SI unit of a column's numbers.
+std::string unit_of(Column const& column, Mechanism mechanism) {
+    if (column.kind == Column::Kind::key) return std::string(column.key->unit);
+    return column.kind == Column::Kind::state ? state_info(info(mechanism), static_cast<int>(column.state)).unit : "s";
+}
+
 std::vector<Column> read_header(Mechanism mechanism, CsvReader const& lines) {
     std::vector<Column> columns;
-    for (std::string const& name : lines.fields()) {
+    for (std::string const& text : lines.fields()) {
+        ColumnHeader const header = column_header(text);
+        std::string const& name = header.name;
         Column column = input_column(name, mechanism, lines);
+        if (column.kind != Column::Kind::ignored && column.kind != Column::Kind::law) {
+            std::string const unit = unit_of(column, mechanism);
+            auto const factor = header.factor_to(unit);
+            if (auto const* problem = std::get_if<Problem>(&factor)) lines.fail(fmt::format("column {}: {}; {}", text, problem->reason, problem->advice));
+            column.factor = std::get<UnitFactor>(factor);
+            column.unit = header.unit.value_or("");
+        }
         if (column.kind != Column::Kind::ignored) {
             for (Column const& other : columns) {
                 if (other.name == column.name) lines.fail(fmt::format("column {}: stands there twice", name));
@@ -107,9 +125,11 @@ std::vector<Column> read_header(Mechanism mechanism, CsvReader const& lines) {
 double number(std::size_t place, Column const& column, CsvReader& lines) {
     CellNumber number;
     auto const fault = lines.read_number(place, number);
-    if (!fault) return number.value;
+    if (!fault) return column.factor(number.text, number.value);
     lines.fail(fmt::format("column {}: '{}' is {}; {}", column.name, lines.fields()[place], fault->reason,
-                           fault->advice.empty() ? "give a number in SI units" : fault->advice));
+                           !fault->advice.empty()    ? fault->advice
+                           : column.unit.empty() ? "give a number in SI units"
+                                                 : fmt::format("give a number of {}", column.unit)));
 }
 
 Law law(std::string_view text, Scene const& scene, CsvReader const& lines) {
@@ -153,6 +173,12 @@ std::optional<std::string> add(StateTable& table, Inputs const& given, Parts con
     return {};
 }
 
+void warn_of_unusual(StateTable& table, Key const& key, double value, CsvReader const& lines) {
+    auto const words = unusual(key, value);
+    bool const is_new = std::ranges::none_of(table.warnings, [&](std::string const& warning) { return warning.find(key.name) != warning.npos; });
+    if (words && is_new) table.warnings.push_back(fmt::format("{}: {} {}", lines.where(), key.name, *words));
+}
+
 void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, CsvReader& lines) {
     std::vector<std::string> const& cells = lines.fields();
     lines.require_columns();
@@ -188,6 +214,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
                                            info(parts.law).name));
                 }
                 column.key->set(inputs, value);
+                warn_of_unusual(table, *column.key, value, lines);
                 if (needs_part(*column.key, value)) require_part(parts, *column.key);
                 texts.push_back(fmt::format("{:.17g}", value));
             }

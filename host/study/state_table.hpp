@@ -17,6 +17,7 @@ struct StateTable {
     std::vector<Inputs> inputs;                             // [rows], complete; the initial state is the one to probe
     std::vector<Parts> parts;                               // [rows]
     std::vector<double> times;                              // [rows], s
+    std::vector<std::string> warnings = {};                 // of unusual numbers, the first of each column
 
     std::size_t rows() const { return inputs.size(); }
 };
@@ -29,7 +30,7 @@ StateTable start_state(Scene const& scene);
 StateTable state_table(Scene const& scene, std::span<double const> states, std::span<double const> times);
 
 /// Reads columns in any order: t and the mechanism's states (needed), `contact.law` and numeric keys of the scene (override
-/// it); a column without a dot in its name that is none of these is ignored.  A row has the kernel parts that its
+/// it), each with a unit in brackets or in SI; a column without a dot in its name that is none of these is ignored.  A row has the kernel parts that its
 /// parameters need: the rates where a χ is not zero, the way's pose where one of its entries is not zero, friction if
 /// the scene has it or the table has a friction.* column.
 /// @param name of the table, for messages.  @throws SceneError `name:line: column …`.

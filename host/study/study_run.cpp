@@ -25,11 +25,10 @@ namespace {
 
 /// Whether a result file holds all that a run would compute.  @throws SceneError if it is of another run.
 bool is_result_of(std::string const& path, RunIdentity const& identity) {
-    if (!check_result(path).intact()) {
-        throw FileError(
-            fmt::format("{}: is damaged: it does not hold what was written to it (its hash differs); give --force "
-                        "instead of --resume to run again",
-                        path));
+    if (SealCheck const seal = check_result(path); !seal.intact()) {
+        // What somebody has added is his: nobody is told to replace it.
+        throw FileError(seal.is_only_added_to() ? fmt::format("{}: {}; take it out again, or give another name with -o", path, seal.damage())
+                                                : fmt::format("{}: is damaged: {}; give --force instead of --resume to run again", path, seal.damage()));
     }
     ResultReader const result(path);
     if (std::string const changed = difference(result, identity); !changed.empty()) {
@@ -106,7 +105,7 @@ MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet con
     return members.common(members_of_starts(scene, part.of(swept_starts(scene, members))));
 }
 
-std::string shard_folder_of(std::string const& output) { return output + ".shards"; }
+std::string shard_folder_of(std::string const& output) { return followed(output) + ".shards"; }
 
 Scene scene_of(ShardFolder const& folder) {
     std::string const& text = folder.identity().scene;

@@ -60,6 +60,12 @@ public:
         if (from.needs.stages) integrals_.end_early(pack, early, to.step, whole_, share_);
     }
 
+    SLIDEWAY_HD Real time_at_start(Real /*whole*/) const { return step_.own * step_.pace_at_start(); }
+    SLIDEWAY_HD Real time_at_end(ClockStep const& of_whole, Real /*whole*/) const { return of_whole.step_.own * step_.pace_at_end(); }
+    SLIDEWAY_HD void go_as(ClockStep const& whole, Real share, Mask<Real> in) {
+        go_by(whole.step_.start, select(in, whole.step_.own * share, Real(0.0)), whole.step_.is_deep());
+    }
+
     /// The last step by its clock.
     SLIDEWAY_HD ClockedStep<Real> const& step() const { return step_; }
 

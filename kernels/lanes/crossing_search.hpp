@@ -29,8 +29,8 @@ public:
             span.v0 = surface.value(c.t, c.y);
             // Derivatives at the ends of a stiff step belong to fast motions that the method damps.
             Real const chord = span.v1 - span.v0;
-            span.s0 = Stepper::stiff ? chord : surface.time_at_start() * surface.slope(c.t, c.y, c.rates, span.v0);
-            span.s1 = Stepper::stiff ? chord : surface.time_at_end(stepper) * surface.slope(end, whole.end, whole.end_rates, span.v1);
+            span.s0 = Stepper::stiff ? chord : stepper.time_at_start(whole.step) * surface.slope(c.t, c.y, c.rates, span.v0);
+            span.s1 = Stepper::stiff ? chord : stepper.time_at_end(stepper, whole.step) * surface.slope(end, whole.end, whole.end_rates, span.v1);
             // What rests on the surface leaves it some time within the step, which the cubic cannot know: it swings.  What turns round there
             // by s0²/4 v1, which rounding of the values does not show, rests too.
             auto const rests = (span.v0 == zero) & (abs(span.s0) <= Real(1e-8) * abs(span.v1));
@@ -55,17 +55,6 @@ private:
         Stepper const& stepper;  // that made the step
         CrossingPlan const& plan;
         Real const& whole;  // the step that is searched
-
-        /// What the time would change by over the whole step, as it passes at the step's start and at the end of a part of it: of a step
-        /// by a clock these differ.
-        SLIDEWAY_HD Real time_at_start() const {
-            if constexpr (Stepper::by_clock) return stepper.step().own * stepper.step().pace_at_start();
-            else return whole;
-        }
-        SLIDEWAY_HD Real time_at_end(Stepper const& part) const {
-            if constexpr (Stepper::by_clock) return stepper.step().own * part.step().pace_at_end();
-            else return whole;
-        }
 
         SLIDEWAY_HD Real value(Real t, Real const* state) const {
             if (plan.on == CrossingPlan::On::state) return state[plan.index] - Real(plan.level);
@@ -156,7 +145,7 @@ private:
             if (!Stepper::stiff && i < corrections) {
                 Real const t = pack.state.course.t + attempt.step;
                 Real const slope =
-                    surface.time_at_end(part) * surface.slope(t, attempt.end, attempt.end_rates, here, attempt.step);
+                    part.time_at_end(surface.stepper, surface.whole) * surface.slope(t, attempt.end, attempt.end_rates, here, attempt.step);
                 Real const moved = theta - here / slope;
                 // A grazing zero has no slope to go by, and a NaN goes nowhere.
                 auto const inside = (moved > low) & (moved < high);
@@ -175,10 +164,7 @@ private:
     SLIDEWAY_NOINLINE static Real value_after(Pack<Model, Real>& pack, Surface const& surface, Stepper& stepper,
                                               Attempt<Model, Real>& attempt, Real theta, Mask<Real> at) {
         attempt.step = select(at, surface.whole * theta, Real(0.0));
-        if constexpr (Stepper::by_clock) {
-            auto const& step = surface.stepper.step();
-            stepper.go_by(step.start, select(at, step.own * theta, Real(0.0)), step.is_deep());
-        }
+        stepper.go_as(surface.stepper, theta, at);
         auto from = pack.start();
         from.needs = {};
         stepper.attempt(pack, from, attempt);

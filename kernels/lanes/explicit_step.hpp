@@ -3,6 +3,7 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 #include "kernels/steppers/pair_numbers.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -17,6 +18,7 @@ public:
 
     /// Idle lanes step in place.
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
+        SLIDEWAY_EXPECT(pack.pair != nullptr && pack.pair->stages > 1 && pack.pair->stages + pack.pair->dense_stages <= PairNumbers::most_stages);
         pair_ = pack.pair;
         for (int i = 0; i < size; ++i) k_[0][i] = from.rates[i];
         to.faults = Faults<Real>::none();

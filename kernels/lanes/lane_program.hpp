@@ -17,6 +17,7 @@
 #include "kernels/lanes/stiff_step.hpp"
 #include "kernels/lanes/stint.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
 #include "kernels/steppers/dop853.hpp"
 #include "kernels/steppers/dormand_prince.hpp"
@@ -40,7 +41,7 @@ public:
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
         if constexpr (CanHoldContacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
-        if constexpr (requires { pack_.model.set_tolerance(1.0); }) pack_.model.set_tolerance(block.settings.rtol);
+        pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
         pack_.pair = &pair_of(block.settings, pack_.needs.watching);
     }
@@ -52,6 +53,7 @@ public:
             int chosen[width];
             int const members = roster_.choose(chosen);
             if (members == 0) return;
+            SLIDEWAY_EXPECT(members <= width);
             if (is_stopped()) {
                 abandon();
                 return;
@@ -163,9 +165,8 @@ private:
             work<std::conditional_t<HasTimeStepping<Model>, MoreauJeanStep<Model, Real>, ExplicitStep<Model, Real>>>();
         } else if (settings.method == Method::verner65) {
             work<std::conditional_t<HasClocks<Model>, ClockStep<Verner65, Model, Real>, ExplicitStep<Model, Real>>>();
-        } else if (HasOwnStepper<Model> && settings.method == Method::automatic) {
-            if constexpr (HasOwnStepper<Model>)
-                Model::template with_stepper<Model, Real>(settings.rtol, [&]<class Stepper>(Stepper*) { work<Stepper>(); });
+        } else if (Model::has_own_stepper && settings.method == Method::automatic) {
+            Model::template with_stepper<Model, Real>(settings.rtol, [&]<class Stepper>(Stepper*) { work<Stepper>(); });
         } else {
             work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<Model, Real>>>();
         }

@@ -1,9 +1,26 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
+
+/// What most models leave as it is; one that has more to say hides it.
+struct ModelDefaults {
+    /// Whether the model brings the stepper that `auto` takes.
+    static constexpr bool has_own_stepper = false;
+    template <class Model, class Real, class Work> SLIDEWAY_HD static void with_stepper(double /*rtol*/, Work const&) {}
+    SLIDEWAY_HD static void set_tolerance(double /*rtol*/) {}
+    /// Reports, from here on, are of stages inside a step, which tell what is integrated and nothing else; and of that, perhaps, the audit's powers alone.
+    SLIDEWAY_HD static void tell_stages(bool /*inside*/, bool /*powers_alone*/) {}
+    /// Components of the state that the drive prescribes, a bit each: neighbours cannot differ in them.
+    SLIDEWAY_HD static constexpr unsigned prescribed() { return 0; }
+    /// Acceleration of the equilibrium that steps of the stiff method are to follow, of each component of the state that is a place; 0 of others.
+    template <class Real, class Parameters>
+    SLIDEWAY_FN static void bend(Real /*t*/, Real /*step*/, Real const* /*state*/, Parameters const&, Real* /*of_state*/) {}
+};
 
 /// Whether a model's accelerations may be asked for: it names an `Accelerations<Real>`.
 template <class Model> concept HasAccelerations = requires { typename Model::template Accelerations<double>; };
@@ -17,8 +34,6 @@ template <class Model> concept HasEvents = requires { requires Model::events > 0
 template <class Model> concept HasImpacts = requires { requires Model::has_impacts; };
 /// Whether a model with impacts may be integrated by time stepping: the rule takes no shadows along.
 template <class Model> concept HasTimeStepping = HasImpacts<Model> && !Model::has_shadows;
-/// Whether a model brings the stepper that `auto` takes.
-template <class Model> concept HasOwnStepper = requires { requires Model::has_own_stepper; };
 /// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
 template <class Model> concept Regroups = Model::has_patterns && !(HasImpacts<Model> && Model::has_shadows);
 
@@ -31,6 +46,7 @@ template <class Model, class Real> class ModelParts {
     template <class Number> using Memory = typename Model::template Memory<Number>;
     template <class Number> using Report = typename Model::template Report<Number>;
 
+    static_assert(std::is_base_of_v<ModelDefaults, Model>, "ModelDefaults: a base, of which the model hides what it does otherwise");
     static_assert(requires { typename Model::Inputs; }, "Inputs: plain numbers of one member");
     static_assert(requires { int{Model::size}; }, "size: of the state");
     static_assert(requires { int{Model::series}; },
@@ -68,8 +84,7 @@ template <class Model, class Real> class ModelParts {
                   "has_impacts: located(parameters, end), depth up to which an event counts as found; settle(...), what follows where a step has ended "
                   "(kernels/rigid), with shadows also of Tangents (kernels/lanes/saltation.hpp)");
     static_assert(!Model::has_linearisation || requires { typename Model::template Linearisation<Real>; },
-                  "has_linearisation: Linearisation<Real> and linearise(...) serve the stiff method; bend(...), where it is there, tells how what it "
-                  "rests on accelerates");
+                  "has_linearisation: Linearisation<Real> and linearise(...) serve the stiff method");
     static_assert(!(Model::has_patterns && Model::has_linearisation) || requires(Parameters<Real> const& p, Real const* y) {
         Model::energy_scale(p);
         Model::squared_speed(y, y);

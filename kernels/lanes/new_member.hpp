@@ -5,6 +5,7 @@
 #include "kernels/block.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 #include "kernels/steppers/step_control.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -15,6 +16,7 @@ template <class Model> struct NewMember {
     using Record = MemberState<Model, double>;
 
     SLIDEWAY_HD static void begin(Record& r, Model const& model, Block const& block, std::size_t member) {
+        SLIDEWAY_EXPECT(member < block.members);
         auto const& inputs = block.inputs[member];
         r.constants.parameters = model.parameters(inputs);
         Model::scales(r.constants.parameters, r.constants.scale);
@@ -24,6 +26,7 @@ template <class Model> struct NewMember {
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
         MemberClock const clock = block.clocks != nullptr ? block.clocks[member] : MemberClock{block.settings.end_time};
+        SLIDEWAY_EXPECT(clock.end >= 0 && (block.stops.count == 0 || (clock.first_stop > 0 && clock.period > 0)));
         r.constants.end = clock.end;
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;

@@ -55,8 +55,7 @@ template <class Model, class Real> struct Pack {
     /// Says whether reports, from here on, are of stages inside a step: they tell of a state what is integrated and nothing else, which may be what
     /// the energy audit integrates.
     SLIDEWAY_HD void tell_stages(bool inside) {
-        if constexpr (requires { model.tell_powers_alone(inside); }) model.tell_powers_alone(inside && needs.powers_alone);
-        if constexpr (requires { model.tell_integrands_alone(inside); }) model.tell_integrands_alone(inside);
+        model.tell_stages(inside, inside && needs.powers_alone);
     }
 
     /// How many integrals a step may have: the observer's, then the accelerations'.
@@ -161,26 +160,18 @@ private:
     }
     /// How many of the observer's integrals are asked for, and their integrands at a report.
     SLIDEWAY_HD int observed() const {
-        if constexpr (integrates_powers<Observer>) {
-            if (needs.powers_alone) return Observer::powers;
-        }
-        return Observer::integrals;
+        return needs.powers_alone ? Observer::powers : Observer::integrals;
     }
     /// Has a function see the number of each; one of two loops of constant length.
     template <class Function> SLIDEWAY_FN void each_observed(Function const& see) const {
-        if constexpr (integrates_powers<Observer>) {
-            if (needs.powers_alone) {
-                for (int i = 0; i < Observer::powers; ++i) see(i);
-                return;
-            }
+        if (needs.powers_alone) {
+            for (int i = 0; i < Observer::powers; ++i) see(i);
+            return;
         }
         for (int i = 0; i < Observer::integrals; ++i) see(i);
     }
     SLIDEWAY_HD void observe(Report const& report, Real* values) const {
-        if constexpr (integrates_powers<Observer>) {
-            if (needs.powers_alone) return Observer::powers_of(report, values);
-        }
-        Observer::integrands(report, values);
+        needs.powers_alone ? Observer::powers_of(report, values) : Observer::integrands(report, values);
     }
 };
 

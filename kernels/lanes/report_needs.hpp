@@ -7,12 +7,6 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Whether an observer can do with the powers of the energy audit, where nothing else is asked for that is integrated.
-template <class Observer> inline constexpr bool integrates_powers = requires { Observer::powers; };
-
-/// Whether an observer keeps peaks that are looked for inside of steps too (PeakSearch).
-template <class Observer> inline constexpr bool keeps_peaks = requires { Observer::peaks; };
-
 /// Which of a model's reports a block needs.
 struct ReportNeeds {
     bool quantities = false;     // the observer is at work
@@ -32,22 +26,14 @@ struct ReportNeeds {
     template <class Model, class Real>
     SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, IntegratorSettings const& settings) {
         using Observer = typename Model::template Observer<Real>;
+        using Accelerations = typename AccelerationsOf<Model, Real>::Type;
         ReportNeeds needs;
         needs.quantities = quantities != 0;
-        needs.stages = Observer::needs_stages(quantities);
-        if constexpr (HasAccelerations<Model>) {
-            using Accelerations = typename Model::template Accelerations<Real>;
-            needs.accelerations = (quantities & Accelerations::quantities) != 0;
-            needs.stages = needs.stages || Accelerations::needs_stages(quantities);
-        }
-        if constexpr (keeps_peaks<Observer>) needs.peaks = Observer::needs_peaks(quantities);
-        if constexpr (HasAccelerations<Model>) {
-            needs.peaks = needs.peaks || Model::template Accelerations<Real>::needs_peaks(quantities);
-        }
+        needs.accelerations = (quantities & Accelerations::quantities) != 0;
+        needs.stages = Observer::needs_stages(quantities) || Accelerations::needs_stages(quantities);
+        needs.peaks = Observer::needs_peaks(quantities) || Accelerations::needs_peaks(quantities);
         needs.audit = Observer::audits(quantities);
-        if constexpr (integrates_powers<Observer>) {
-            needs.powers_alone = needs.stages && !needs.accelerations && !Observer::integrates_more(quantities);
-        }
+        needs.powers_alone = needs.stages && !needs.accelerations && !Observer::integrates_more(quantities);
         if constexpr (Model::has_contacts) {
             needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
             if (HasClocks<Model> && settings.method == Method::verner65) needs.watching = Watching::impacts;

@@ -3,6 +3,7 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/observers/sampler.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -31,6 +32,7 @@ public:
         for (int i = 0; i < lanes<Real>; ++i) {
             std::size_t const section = plan.section_at(number(c.stop, i));
             if (!holds(at, i) || section == StopPlan::nowhere) continue;
+            SLIDEWAY_EXPECT(number(c.member, i) < block_.members && section < plan.sections());
             double* const row =
                 block_.section_values + (number(c.member, i) * plan.sections() + section) * (1 + Model::size);
             row[0] = lane(c.t, i);
@@ -66,6 +68,7 @@ public:
                 set_lane(c.shadowed.lost, i, 0.0);
                 set_lane(c.shadowed.grown, i, 0.0);
             }
+            SLIDEWAY_EXPECT(number(c.member, i) < block_.members && record <= plan.growths() && block_.growth_values != nullptr);
             double* const rows = block_.growth_values + number(c.member, i) * plan.growths() * shadows;
             for (std::size_t j = 0; j < shadows; ++j) {
                 Real& growth = pack.state.shadows[j].growth;
@@ -152,6 +155,7 @@ public:
         for (int i = 0; i < lanes<Real>; ++i) {
             if (!holds(ended, i)) continue;
             auto const member = number(c.member, i);
+            SLIDEWAY_EXPECT(member < block_.members);
             Status const status = holds(finished & unstable, i)     ? Status::unstable
                                   : holds(finished, i)              ? Status::finished
                                   : holds(faults.geometry, i)       ? Status::geometry

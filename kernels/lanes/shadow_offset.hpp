@@ -38,19 +38,13 @@ template <class Model, class Real> struct ShadowOffset {
         }
     }
 
-    /// Components of the state in which no offset can be, a bit each: the drive says them.
-    SLIDEWAY_FN static unsigned prescribed(Model const& model) {
-        if constexpr (requires { model.prescribed(); }) return model.prescribed();
-        else return 0;
-    }
-
     /// What rounding makes of an offset.  The numbers of a member with rigid contacts may be far longer than what they are measured in.
     SLIDEWAY_HD static Real rounding(Pack<Model, Real> const& pack) {
         Real least(least_distance);
         if constexpr (HasImpacts<Model>) {
             auto const& s = pack.state;
             for (int i = 0; i < size; ++i) {
-                if ((prescribed(pack.model) >> i & 1u) != 0) continue;
+                if ((pack.model.prescribed() >> i & 1u) != 0) continue;
                 least = max(Real(4 * 2.220446049250313e-16) * abs(s.course.y[i]) / s.constants.scale[i], least);
             }
         }

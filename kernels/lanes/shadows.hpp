@@ -171,7 +171,7 @@ private:
             counts.grown = counts.grown + count<Real>(at & large);
         }
         Real const least = Offset::rounding(pack), d0(plan_.d0);
-        orthonormalise<size, width>(w, plan_.count, least, Offset::prescribed(pack.model), length);
+        orthonormalise<size, width>(w, plan_.count, least, pack.model.prescribed(), length);
         [[maybe_unused]] auto lost = mask_of<Real>(false);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];

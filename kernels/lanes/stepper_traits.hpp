@@ -12,6 +12,12 @@ struct StepperTraits {
     static constexpr bool ends_early = false;    // a step that was made may end at any place inside
     static constexpr bool has_impulses = false;  // they are a part of the steps, so that nothing happens between these
     static constexpr int jacobians = 0;          // per attempt
+
+    /// What the time would change by over a whole step, as it passes at the step's start and at the end of a part of it: by a clock these differ.
+    template <class Real> SLIDEWAY_FN static Real time_at_start(Real whole) { return whole; }
+    template <class Stepper, class Real> SLIDEWAY_FN static Real time_at_end(Stepper const& /*of_whole*/, Real whole) { return whole; }
+    /// Has the next attempt be a part of another's.
+    template <class Stepper, class Real, class In> SLIDEWAY_FN static void go_as(Stepper const& /*whole*/, Real /*share*/, In /*lanes*/) {}
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

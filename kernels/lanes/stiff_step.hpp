@@ -91,9 +91,7 @@ private:
         auto const differs = apart > Real(0.0);
         Real const factor = select(differs, hg_ * to.step / select(differs, apart, Real(1.0)), Real(0.0));
         for (auto& of_state : bend_) of_state = Real(0.0);
-        if constexpr (requires { pack.model.bend(from.t, to.step, from.y, pack.state.constants.parameters, bend_); }) {
-            pack.model.bend(from.t, to.step, from.y, pack.state.constants.parameters, bend_);
-        }
+        pack.model.bend(from.t, to.step, from.y, pack.state.constants.parameters, bend_);
         Real const squared = hg_ * to.step;
         for (int i = 0; i < size; ++i) drift_[i] = fms(factor, drift_[i] - from.rates[i], squared * bend_[i]);
         return faults;

@@ -11,6 +11,7 @@
 #include "kernels/lanes/settled_steps.hpp"
 #include "kernels/lanes/touch_steps.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 #include "kernels/steppers/step_control.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -43,6 +44,7 @@ public:
 
     /// Every lane attempts `attempts` steps, unless its member ends or leaves the stiff method before.
     SLIDEWAY_HD void work(int attempts) {
+        SLIDEWAY_EXPECT(attempts > 0);
         auto& pack = step_.pack;
         auto const members = pack.busy;
         int const members_at_start = held_lanes(members);
@@ -80,6 +82,7 @@ private:
         if (Stepper::stiff && results.samples() > 0) time = results.next_sample_times(c.sample, c.t, time);
         step_.landing = time;
         step_.lands = contacts_.choose(step_, time - c.t);
+        SLIDEWAY_EXPECT(none(pack.busy & (c.t > pack.state.constants.end)) && (Stepper::by_clock || none(pack.busy & (step_.attempt.step < Real(0.0)))));
         pack.template count_attempt<Stepper>(pack.busy);
         results.count_attempt(lanes<Real>, held_lanes(pack.busy));
     }

@@ -5,6 +5,7 @@
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/math/vec3.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -126,6 +127,7 @@ struct StickSlipFriction {
     /// μ(V): μs sin(π V/2Vs) below Vs; (μs+μd)/2 + (μs−μd)/2 · cos(π (V−Vs)/(Vd−Vs)) up to Vd; μd above.  C¹.
     /// @param speed V >= 0 [m/s].
     template <class Real> SLIDEWAY_FN static Real coefficient(Real speed, FrictionParameters<Real> const& f) {
+        SLIDEWAY_EXPECT(none(speed < Real(0.0)));
         auto const slipping = speed >= f.slip_speed;
         // Both curves are one sine on [−π/2, π/2]: cos(q) = sin(π/2 − q).
         Real const quarter(1.5707963267948966);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -44,6 +45,7 @@ SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], i
 /// @param length [vectors] what the earlier ones left of each, R_jj of the QR decomposition
 template <int n, int width, class Real>
 SLIDEWAY_HD void orthonormalise(Real (*w)[width], int vectors, Real least, unsigned barred, Real* length) {
+    SLIDEWAY_EXPECT(vectors <= n);
     for (int j = 0; j < vectors; ++j) {
         for (int k = 0; k < j; ++k) {
             Real const along = inner_product<n>(w[k], w[j]);

@@ -3,6 +3,7 @@
 #include "kernels/block.hpp"
 #include "kernels/math/logarithm.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -19,6 +20,7 @@ template <class Real> struct OffsetGrowth {
 /// @param distance after the last stop, > 0  @param least what rounding makes of offsets
 template <class Real>
 SLIDEWAY_FN OffsetGrowth<Real> offset_growth(ShadowPlan const& plan, Mask<Real> at, Real length, Real distance, Real least) {
+    SLIDEWAY_EXPECT(none(at & (distance <= Real(0.0))) && none(least <= Real(0.0)));
     Real const reached = max(length, least);
     auto moved = at;
     auto const lost = !(length > least);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -10,6 +11,7 @@ template <class Real> class SquaredRatios {
 public:
     /// @param b > 0, with b⁶ within the range of the number type.
     SLIDEWAY_FN void add(Real a, Real b) {
+        SLIDEWAY_EXPECT(none(b <= Real(0.0)));
         if (held_ == 0) {
             a_ = a, b_ = b;
         } else if (held_ == 1) {

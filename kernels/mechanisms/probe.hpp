@@ -5,6 +5,7 @@
 #include "kernels/lane_copy.hpp"
 #include "kernels/mechanisms/planar_report.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -42,6 +43,7 @@ template <class Real> SLIDEWAY_HD void put_contact(PlanarContact<Real> const& c,
 template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& table, Model const& model = {}) {
     constexpr int width = lanes<Real>;
     constexpr int size = Model::size;
+    SLIDEWAY_EXPECT(table.rows == 0 || (table.inputs != nullptr && table.times != nullptr && table.results != nullptr));
     typename Model::template Parameters<Real> p;
     typename Model::template Report<Real> report;
     typename Model::template Memory<Real> memory;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/conditions.hpp"
+#include "kernels/lanes/model.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/models/slider_lanes.hpp"
 #include "kernels/real.hpp"
@@ -9,7 +10,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// What lanes ask of the conditions of a block.
 /// @tparam Derived has `block`, its Conditions, and `neighbours`, whether members have some beside them
-template <class Laws> struct ConditionsOfBlock {
+template <class Laws> struct ConditionsOfBlock : ModelDefaults {
     Conditions<Laws> block;
 
     SLIDEWAY_HD bool switches() const { return block.switches; }
@@ -18,7 +19,7 @@ template <class Laws> struct ConditionsOfBlock {
         block.holds_contacts = holds_contacts(watching);
         block.in_impacts = watching == Watching::impacts;
     }
-    SLIDEWAY_HD void tell_powers_alone(bool alone) { block.powers_alone = alone; }
+    SLIDEWAY_HD void tell_stages(bool /*inside*/, bool powers_alone) { block.powers_alone = powers_alone; }
     /// At which events of the contacts steps end.  @param neighbours members have some beside them
     SLIDEWAY_HD Watching watching(bool locate_modes, bool neighbours) const {
         if (block.remembers) return neighbours && block.switches ? Watching::touches_and_parts : Watching::touches;
@@ -61,7 +62,7 @@ template <class Mechanism, class Base, class Laws> struct MechanismModel : Mecha
     template <class Real> using Memory = typename LanesOf<Base>::template Memory<Real>;
     template <class Real> using Report = typename Lanes::template Report<Real>;
 
-    explicit constexpr MechanismModel(Conditions<Laws> const& conditions) : ConditionsOfBlock<Laws>{conditions} {}
+    explicit constexpr MechanismModel(Conditions<Laws> const& conditions) : ConditionsOfBlock<Laws>{{}, conditions} {}
 
     template <bool Full, class Real>
     SLIDEWAY_FN Faults<Real> derivative(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,

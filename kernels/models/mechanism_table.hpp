@@ -61,7 +61,7 @@ struct MechanismTable : Base, SignalLanes<Base, Signals>, ConditionsOfBlock<LawF
     Functions functions;
 
     constexpr MechanismTable(Functions const& of_mechanism, Conditions<LawFunctions<Real>> const& conditions)
-        : ConditionsOfBlock<LawFunctions<Real>>{conditions}, functions(of_mechanism) {}
+        : ConditionsOfBlock<LawFunctions<Real>>{{}, conditions}, functions(of_mechanism) {}
 
     Parameters<double> parameters(Inputs const& inputs) const { return functions.parameters(inputs); }
     template <bool Full>

@@ -8,6 +8,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// A model whose accelerations nobody may ask for.
 struct NoAccelerations {
     static constexpr int integrals = 0, peaks = 0;
+    static constexpr Selection quantities = 0;
+    SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
+    SLIDEWAY_HD static constexpr bool needs_peaks(Selection) { return false; }
 };
 
 /// Peaks and integrals of the accelerations of a pack's sliders: of the centre along X, Y and Z, and of the sensors top and front.  Apart

@@ -2,6 +2,7 @@
 
 #include "kernels/block.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -35,6 +36,7 @@ public:
     template <class Real>
     SLIDEWAY_HD void write(int index, std::size_t member, std::size_t sample, Real const* state,
                            typename Model::template Report<Real> const& report) const {
+        SLIDEWAY_EXPECT(member < block_.members && sample < block_.samples);
         std::size_t row = 0;
         for (int i = 0; i < Model::series; ++i) {
             if (!((block_.series >> i) & 1u)) continue;

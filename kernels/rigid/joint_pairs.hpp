@@ -8,6 +8,7 @@
 #include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/twist.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -81,6 +82,7 @@ public:
 
     /// @param number 4 face + place in the face
     SLIDEWAY_NOINLINE void put_pair(int number, JointPair<Real>& pair) const {
+        SLIDEWAY_EXPECT(number >= 0 && number < pair_count);
         Signs const signs(number);
         number < 8 ? put_pair_of<Axis::y>(signs, pair) : put_pair_of<Axis::z>(signs, pair);
     }

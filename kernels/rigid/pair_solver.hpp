@@ -7,6 +7,7 @@
 #include "kernels/rigid/pair_rest.hpp"
 #include "kernels/rigid/spring_loads.hpp"
 #include "kernels/rigid/touching_pair.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -28,6 +29,7 @@ public:
 
     /// One more pair, to be filled in.
     SLIDEWAY_FN TouchingPair<Real>& add(int number) {
+        SLIDEWAY_EXPECT(count_ < pair_count && number >= 0 && number < pair_count && (count_ == 0 || number > rows_[count_ - 1].number));
         auto& row = rows_[count_++];
         row.number = number;
         return row;
@@ -40,6 +42,7 @@ public:
     /// @param enough change of the motion that counts as none  @param bearable one that does where it cannot be made less
     /// @param friction some pair may stick  @param lasts the loads are those of contact that lasts: nearly always all pairs push
     SLIDEWAY_HD void solve(Mask<Real> in, Real enough, Real bearable, bool friction, bool lasts) {
+        SLIDEWAY_EXPECT(none(bearable < enough));
         Real const zero(0.0);
         after = before;
         Real size = zero;

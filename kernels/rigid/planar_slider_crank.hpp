@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/inputs.hpp"
+#include "kernels/lanes/model.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/planar_base.hpp"
 #include "kernels/mechanisms/planar_corners.hpp"
@@ -20,7 +21,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// The planar slider-crank whose block and walls are rigid (docs/model.md 13), as the lanes integrate it: corners fly, meet their walls in impacts without
 /// duration (`settle`), and are held there by a constraint as long as that pushes.
-struct RigidPlanarSliderCrank : PlanarBase {
+struct RigidPlanarSliderCrank : PlanarBase, ModelDefaults {
     template <class Real> using Report = RigidPlanarReport<Real>;
     template <class Real> using Memory = RigidMemory<Real>;
     template <class Real> using Watch = RigidWatch<Real>;

@@ -3,6 +3,7 @@
 #include "kernels/joint/contact_memory.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -64,11 +65,13 @@ template <class Real> SLIDEWAY_FN void start_memory(RigidMemory<Real>& memory) {
 
 /// A number of the pair `number` of sixteen.
 template <class Real> SLIDEWAY_FN Real& number_of(Quad<Real> (&of)[face_count], int number) {
+    SLIDEWAY_EXPECT(number >= 0 && number < 4 * face_count);
     auto& quad = of[number / 4];
     int const place = number % 4;
     return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
 }
 template <class Real> SLIDEWAY_FN Real number_of(Quad<Real> const (&of)[face_count], int number) {
+    SLIDEWAY_EXPECT(number >= 0 && number < 4 * face_count);
     auto const& quad = of[number / 4];
     int const place = number % 4;
     return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;

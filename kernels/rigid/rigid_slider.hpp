@@ -4,6 +4,7 @@
 #include "kernels/inputs.hpp"
 #include "kernels/joint/apex.hpp"
 #include "kernels/joint/joint_gaps.hpp"
+#include "kernels/lanes/model.hpp"
 #include "kernels/math/tangent.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/observers/energy_audit.hpp"
@@ -24,7 +25,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// push as long as they last.  What guides it along the way is looked up: the lanes are compiled once for all mechanisms of a base.
 /// @tparam Number a number or a pack of them, of which and of whose Tangent the functions below are called  @tparam Base_ of the mechanism's row in
 /// mechanisms/list.hpp
-template <class Number, class Base_> struct RigidSlider : Base_ {
+template <class Number, class Base_> struct RigidSlider : Base_, ModelDefaults {
     using Base = Base_;
     template <class Real> using Parameters = RigidSliderParameters<Real>;
     template <class Real> using Report = RigidSliderReport<Real>;
@@ -50,7 +51,7 @@ template <class Number, class Base_> struct RigidSlider : Base_ {
     RigidSliderParameters<double> parameters(Inputs const& in) const { return guide->parameters(in); }
     /// A slider without a drive has no speed that slips are to be seen against.
     SLIDEWAY_HD void set_tolerance(double rtol) { block.slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
-    SLIDEWAY_HD void tell_integrands_alone(bool alone) { block.integrands_alone = alone; }
+    SLIDEWAY_HD void tell_stages(bool inside, bool /*powers_alone*/) { block.integrands_alone = inside; }
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
 

@@ -4,6 +4,7 @@
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
 #include "kernels/rigid/twist.hpp"
+#include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -42,6 +43,7 @@ template <class Real> struct TouchingPair {
     }
     /// With a change of γ by a unit load.
     SLIDEWAY_FN void weigh(Real by_load) {
+        SLIDEWAY_EXPECT(none(here & (by_load < Real(0.0))));
         own = by_load;
         per_own = Real(1.0) / by_load;
     }

@@ -8,7 +8,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The Lorenz equations, a small smooth model that tests and benchmarks of the steppers share:
 ///   x' = σ (y − x),   y' = x (ρ − z) − y,   z' = x y − β z.
 /// Source: Lorenz, J. Atmos. Sci. 20 (1963) 130–141, equations 25–27.  Dimensionless; every state has a derivative.
-struct Lorenz : PlainModel<3>, Analytic {  // x y z
+struct Lorenz : Analytic<PlainModel<3>> {  // x y z
     struct Inputs {
         double sigma = 10;
         double rho = 28;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/lanes/model.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/no_memory.hpp"
 #include "kernels/real.hpp"
@@ -10,7 +11,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// What a small model of `components` states leaves at its plainest (kernels/lanes/model.hpp).
-template <int components> struct PlainModel {
+template <int components> struct PlainModel : ModelDefaults {
     static constexpr int size = components;
     static constexpr int series = components;
     static constexpr bool has_contacts = false;

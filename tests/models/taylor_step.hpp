@@ -101,7 +101,8 @@ private:
 };
 
 /// A model whose derivative is analytic between its events: it decides by nothing that changes within a step, so that it may be called with series.
-struct Analytic {
+/// @tparam Base what it is beside
+template <class Base> struct Analytic : Base {
     static constexpr bool has_own_stepper = true;
     /// What `auto` steps by: the series whose order suits the tolerance, −½ ln(rtol) or so.  @param work is called with a null pointer to the stepper
     template <class Model, class Real, class Work> SLIDEWAY_HD static void with_stepper(double rtol, Work const& work) {

@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'244u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'235u);
+    EXPECT_LE(Layer("kernels").lines(), 17'320u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'248u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'626u);
-    EXPECT_LE(Layer("host").lines(), 29'749u);
+    EXPECT_LE(Layer("host").lines(), 29'960u);
 }
 
 TEST(Budgets, OfTypes) {

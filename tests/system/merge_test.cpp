@@ -29,6 +29,11 @@ TEST_F(Merge, OfAFinishedRunSaysThatItsShardsAreNotNeeded) {
     EXPECT_EQ(said("m.nc", 0), "results      m.nc (replaced a former file); s.nc.shards is no longer needed\n");
 }
 
+TEST_F(Merge, OfAFinishedRunSaysThatCommandsThatItNamesNeedTheirScene) {
+    ASSERT_EQ(run_scene({"--no-progress", "--shard", "1/1", "--set", "integrator.max_steps=3"}).code, 0);
+    EXPECT_EQ(said("m.nc", 0), "results      m.nc; s.nc.shards is needed for the scene that the commands above read, and for nothing else\n");
+}
+
 TEST_F(Merge, OfADamagedShardSaysThatTheOthersAreNeeded) {
     make_shards();
     std::ofstream(path(shard(24)), std::ios::binary) << "other";
@@ -46,6 +51,10 @@ TEST_F(Merge, IntoTheNameOfARunAtWorkIsRefused) {
         expect_refusal(4, line, {"merge", folder, "-o", "live.nc"});
         expect_refusal(4, line, {"merge", folder, "-o", "live.nc", "--force"});
     }
+    // So is a link to its name, there already or not.
+    fs::create_symlink("live.nc", path("link.nc"));
+    expect_refusal(4, "link.nc: is being written by process ", {"merge", "done.nc.shards", "-o", "link.nc"});
+    expect_refusal(4, "live.nc.shards: is being written by process ", {"run", "s.toml", "-o", "link.nc", "--no-progress", "--force"});
     // A copy of what it has so far is no harm.
     EXPECT_TRUE(comes_true([&] { return shards_in("live.nc.shards") > 0; }));
     EXPECT_EQ(run({"merge", "live.nc.shards", "-o", "copy.nc"}).code, 5);

@@ -281,6 +281,15 @@ TEST_F(OwnModules, ThatCannotBeUsedAreOneLine) {
         write(file("scalar"), text);
         expect_refusal(2, part, {"run", "s.toml", "-o", "s.nc"});
     }
+    // Of an instruction set, under the name of another.
+    if (best_isa() != Isa::scalar) {
+        fs::remove_all(path("own"));
+        fs::create_directories(path("own"));
+        write(file(best()), whole);
+        expect_refusal(2, fmt::format("slideway_law_twin_{}.so is compiled for scalar", best()), {"run", "s.toml", "-o", "s.nc"});
+        fs::remove(path(file(best())));
+        write(file("scalar"), whole);
+    }
     // Of instructions that this program does not have.
     fs::remove(path(file("scalar")));
     write("own/slideway_law_twin_neon.so", whole);

@@ -64,7 +64,7 @@ TEST_F(Resume, OfADamagedFileIsRefused) {
     ASSERT_NE(at, std::string::npos);
     bytes[at] = static_cast<char>(bytes[at] ^ 1);
     std::ofstream(path("s.nc"), std::ios::binary) << bytes;
-    expect_refusal(4, "s.nc: is damaged: it does not hold what was written to it (its hash differs)",
+    expect_refusal(4, "s.nc: is damaged: the data do not match their hash",
                    {"run", "s.toml", "--no-progress", "--resume"});
     EXPECT_TRUE(file_text(path("s.nc")) == bytes);
 }
@@ -201,6 +201,37 @@ TEST_F(Resume, LeavesWhatIsNotOfTheRunInItsFolderAndSaysSo) {
         << outcome.err;
     EXPECT_EQ(file_text(path("s.nc.shards/members-0000000999.nc")), "of the board");
     EXPECT_EQ(std::distance(fs::directory_iterator(path("s.nc.shards")), fs::directory_iterator()), 3);
+}
+
+TEST_F(Resume, LeavesWhatIsNoFileInItsFolderWhateverItsName) {
+    make_unfinished();
+    ASSERT_EQ(mkfifo(path("s.nc.shards/members-9999999999.nc").c_str(), 0600), 0);
+    Outcome outcome = run_scene({"--quiet", "--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("warning: s.nc.shards: stays, for it holds what is not of this run: members-9999999999.nc\n"), std::string::npos) << outcome.err;
+    outcome = run_scene({"--quiet", "--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(results("s.nc").values("member").size(), 64u);
+}
+
+TEST_F(Resume, RefusesAFolderInThePlaceOfAFileOfItsOwnBeforeItComputes) {
+    make_unfinished();
+    fs::create_directory(path("s.nc.shards/finished.toml"));
+    expect_refusal(4, "s.nc.shards/finished.toml: is no file; move it away", {"run", "s.toml", "--no-progress", "--resume"});
+    fs::remove(path("s.nc.shards/finished.toml"));
+    EXPECT_EQ(run_scene({"--quiet", "--resume"}).code, 0);
+}
+
+TEST_F(Resume, OfAFileThatSomebodyAddedToAsksForNoForce) {
+    ASSERT_EQ(run_scene({"--no-progress"}).code, 0);
+    {
+        int file = 0, variable = 0;
+        ASSERT_EQ(nc_open(path("s.nc").c_str(), NC_WRITE, &file), NC_NOERR);
+        ASSERT_EQ(nc_def_var(file, "my_notes", NC_FLOAT, 0, nullptr, &variable), NC_NOERR);
+        ASSERT_EQ(nc_close(file), NC_NOERR);
+    }
+    expect_refusal(4, "s.nc: holds what slideway did not write, and no hash covers (variable my_notes of type float); take it out again, or give another name with -o",
+                   {"run", "s.toml", "--no-progress", "--resume"});
 }
 
 TEST_F(Resume, TakesOneMemberThatItRanAlone) {

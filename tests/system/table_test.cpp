@@ -121,9 +121,29 @@ TEST_F(TableRun, NamesMembersThatFailedByTheirLabel) {
     EXPECT_NE(outcome.out.find("\"label\": \"A-001, north\""), std::string::npos) << outcome.out;
     EXPECT_EQ(ResultReader(path("a/s.nc").string()).texts("member_label"), (std::vector<std::string>{"A-001, north", "A-002"}));
     EXPECT_NE(run({"info", "a/s.nc", "--members", "0..0"}).out.find("  A-001, north\n"), std::string::npos);
+    EXPECT_NE(run({"info", "a/s.nc", "--json"}).out.find("\"label\": \"A-002\""), std::string::npos);
     // Of members that finish nothing is to be said.
     outcome = run_in("a", {"--json", "--force"});
     EXPECT_NE(outcome.out.find("\"failed\": []"), std::string::npos) << outcome.out;
+}
+
+TEST_F(TableRun, LabelsThatAreErrorsOfASpreadsheetAreRefused) {
+    write("a/rows.csv", "part;initial.y [mm]\nA-001;0,01\n#N/A;0,02\n");
+    expect_refusal(2, "a/rows.csv:3: part (column 1) is \"#N/A\" (an error of the spreadsheet)", {"check", "a/s.toml"});
+    write("a/rows.csv", "part;initial.y [mm]\nA-001;0,01\n;0,02\n");
+    EXPECT_EQ(run({"check", "a/s.toml"}).code, 0) << "a remark may be missing";
+}
+
+/// Whether given, drawn or in a row: a drive whose place the last bit of time moves too far is refused.
+TEST_F(TableRun, RowsWhoseDriveIsNotResolvedAreRefusedAsAScenesOwnNumbersAre) {
+    std::string const too_long = "the study is too long: after 1.43e+09 revolutions the last bit of a number of double precision moves the drive by";
+    write("a/rows.csv", "mechanism.crank_speed\n3\n9000\n");
+    for (char const* const command : {"check", "run"}) expect_refusal(2, "a/rows.csv:3: " + too_long, {command, "a/s.toml", "--set", "study.duration=1e6"});
+    write("a/rows.csv", "mechanism.crank_speed\n3\n5\n");
+    EXPECT_EQ(run({"check", "a/s.toml", "--set", "study.duration=1e6"}).code, 0);
+    write("a/drawn.toml", "schema = 1\n[contact]\nlaw = \"conservative\"\n[study]\nmembers = 8\nduration = 1e6\n"
+                          "[study.vary]\n\"mechanism.crank_speed\" = { dist = \"unif\", low = 8999, high = 9000 }\n");
+    expect_refusal(2, "a/drawn.toml: member 0: " + too_long, {"check", "a/drawn.toml"});
 }
 
 TEST_F(TableRun, KeepsLabelsThroughShardsAndMerges) {

@@ -130,6 +130,22 @@ TEST_F(GridThread, AreAsManyAsYouLike) {
     EXPECT_EQ(state.lane_steps_executed, 0u);
 }
 
+/// These programs look at what kernels expect of their callers.
+TEST_F(GridThread, EndsWithThePlaceOfABlockThatIsNotWhole) {
+    using Flaw = void (*)(Block&);
+    auto const plan = testing::shadowed_block(1, {Law::conservative, Damping::rate, true, false});
+    std::pair<Flaw, char const*> const flaws[] = {{[](Block& b) { b.records = nullptr; }, "records"},
+                                                  {[](Block& b) { b.settings.rtol = 0; }, "rtol"},
+                                                  {[](Block& b) { b.clocks = nullptr; }, "clocks"},
+                                                  {[](Block& b) { b.shadows.count = most_shadows + 1; }, "most_shadows"}};
+    for (auto const& [flaw, name] : flaws) {
+        OwnedBlock owned(plan);
+        flaw(owned.block);
+        GridState state;
+        EXPECT_DEATH(testing::run_grid_thread({owned.block, &state, plan.parts}, true), std::string("integrate.hpp:[0-9]+: expected: .*") + name);
+    }
+}
+
 TEST_F(GridThread, HandsEveryMemberToOneThread) {
     constexpr std::size_t members = 20'000;
     Block block;

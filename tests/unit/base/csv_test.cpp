@@ -1,6 +1,7 @@
 #include <cmath>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "host/base/csv.hpp"
@@ -39,6 +40,34 @@ TEST(Csv, EmptyLinesCommentsAndAByteOrderMarkAreNoRows) {
 
 TEST(Csv, BelowTheHeaderANumberSignBeginsARow) {
     EXPECT_EQ(rows_of("# a\nx,y\n#N/A,1\n# b\n"), (std::vector<Fields>{{"2", "x", "y"}, {"3", "#N/A", "1"}, {"4", "# b"}}));
+}
+
+TEST(Csv, AnErrorOfASpreadsheetIsNoComment) {
+    for (char const* const cell : {"#N/A", "\"#DIV/0!\"", "#NV", "#WERT!", "#NOM?"}) {
+        std::string const bare = cell[0] == '"' ? "#DIV/0!" : cell;
+        EXPECT_EQ(rows_of(fmt::format("{},1\n2,3", cell)), (std::vector<Fields>{{"1", bare, "1"}, {"2", "2", "3"}})) << cell;
+        EXPECT_EQ(rows_of(fmt::format("{}\n2", cell)), (std::vector<Fields>{{"1", bare}, {"2", "2"}})) << cell;
+    }
+    for (char const* const comment : {"#", "# N/A", "#time,y", "#data!", "\"# a/b\"", "#A b!"}) EXPECT_EQ(rows_of(fmt::format("{}\nx", comment)), (std::vector<Fields>{{"2", "x"}})) << comment;
+}
+
+TEST(Csv, AFirstLineMayNameTheSeparator) {
+    EXPECT_EQ(rows_of("sep=;\na;b,c\n1;2"), (std::vector<Fields>{{"2", "a", "b,c"}, {"3", "1", "2"}}));
+    EXPECT_EQ(rows_of("\xEF\xBB\xBFsep=,\r\na,b;c\r\n"), (std::vector<Fields>{{"2", "a", "b;c"}}));
+    EXPECT_EQ(rows_of("x\nsep=;\n"), (std::vector<Fields>{{"1", "x"}, {"2", "sep=;"}})) << "further down it is a row";
+}
+
+TEST(Csv, TextThatIsWrittenOtherwiseIsToldByItsCause) {
+    auto const expect = [](std::string const& text, std::string const& line) {
+        try {
+            rows_of(text);
+            ADD_FAILURE() << "no refusal: " << line;
+        } catch (SceneError const& error) {
+            EXPECT_EQ(error.what(), line);
+        }
+    };
+    expect(std::string("\xFF\xFE" "a\0,\0", 6), "a.csv:1: it is text of UTF-16; save it as UTF-8");
+    expect("a,b\r1,2\r", "a.csv:1: its lines end with CR alone; save it with LF or CR LF");
 }
 
 TEST(Csv, TheFirstRowSaysWhatSeparates) {

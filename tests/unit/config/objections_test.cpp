@@ -34,11 +34,27 @@ TEST(Objections, AreToKeys) {
     EXPECT_EQ(objection_to_key(key_of("contact.k", "N/m", 1)), "");
     expect_part(objection_to_key(key_of("contact.k", "N/m", follows)), "contact.k has no default");
     expect_part(objection_to_key(key_of("contact.k", "furlong/m", 1)), "is none of SI");
+    expect_part(objection_to_key(key_of("contact.k", "N/m", -1)), "contact.k has the default -1, which its rule refuses");
     // Of another key of the tree, of a key that is no number, and of the same key with another default.
     expect_part(objection_to_key(key_of("contact.eta", "1", 1)), "known already");
     expect_part(objection_to_key(key_of("contact.law", "1", 1)), "scenes have a key contact.law already");
     expect_part(objection_to_key(key_of("contact.apex_stiffness", "N/m", 5)), "known already");
     for (std::string_view const name : {"mechanism.k", "contact.K"}) expect_part(objection_to_key(key_of(name, "N/m", 1)), "is no \"contact.\"");
+}
+
+TEST(Objections, AreToSignalsThatSayTooLittle) {
+    auto const with = [](Signal const& signal) {
+        MechanismInfo info = slideway::info(Mechanism::slider_crank);
+        info.name = "own_crank";
+        info.on_cards = false;
+        info.signals = {&signal, 1};
+        MechanismKernels const mechanism{.info = &info};
+        return objection_to(ModuleKind::mechanism, KernelModule{.mechanism = &mechanism});
+    };
+    EXPECT_EQ(with({"own_torque", "N m", "torque"}), "");
+    EXPECT_EQ(with({nullptr, "N m", "torque"}), "one of its signals has no name");
+    EXPECT_EQ(with({"own_torque", nullptr, "torque"}), "its signal own_torque has no unit");
+    EXPECT_EQ(with({"own_torque", "N m", nullptr}), "its signal own_torque has no meaning");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace slideway::taylor_step_test {
 namespace {
 
 /// y' = r (y (1 − y) + b cos t), τ' = 1: the logistic equation where b is 0.
-struct Growth : PlainModel<2>, Analytic {
+struct Growth : Analytic<PlainModel<2>> {
     struct Inputs { double start = 0.2, rate = 1, force = 0; };
     template <class Real> struct Parameters { Real rate, force; };
 
@@ -29,7 +29,7 @@ struct Growth : PlainModel<2>, Analytic {
 };
 
 /// x'' = −x, a sine, of whose coefficients at x = 0 every other one is 0.
-struct Swing : PlainModel<2>, Analytic {
+struct Swing : Analytic<PlainModel<2>> {
     struct Inputs { double x = 0, v = 1; };
     template <class Real> struct Parameters { Real stiffness; };
     template <bool Full, class Real>

@@ -80,6 +80,21 @@ TEST(SeriesFile, CellsWithoutANumberAreRefusedInTheColumnAskedFor) {
     expect_refusal("t,y\n0,1\n#N/A,2\n1,3\n", "y", "a.csv:3: t is \"#N/A\"");
 }
 
+TEST(SeriesFile, AnErrorOfASpreadsheetAtItsBeginningIsRefused) {
+    expect_refusal("#N/A\n0.5\n1.5\n", "", "a.csv:1: column 1 is \"#N/A\" (an error of the spreadsheet); correct its formula, or remove the row");
+    expect_refusal("#DIV/0!,4\n1,2\n", "1", "a.csv:1: column 1 is \"#DIV/0!\" (an error of the spreadsheet)");
+    expect_refusal("t,#REF!\n1,2\n", "", "a.csv:1: column 2 is \"#REF!\" (an error of the spreadsheet)");
+}
+
+TEST(SeriesFile, HeadersMayHaveUnits) {
+    StoredSeries const series = read("time [ms],y [mm],z\n0,1,4\n0.5,2,5\n1,3,6\n", "y");
+    EXPECT_DOUBLE_EQ(series.spacing, 0.5e-3);
+    EXPECT_EQ(series.values, (Values{1, 2, 3})) << "as they are: their scale has no effect";
+    EXPECT_EQ(read("t [s],y\n0,1\n0.5,2\n", "t [s]").values, (Values{0, 0.5}));
+    expect_refusal("t [mm],y\n0,1\n1,2\n", "", "column t [mm]: ");
+    expect_refusal("t [ms,y\n0,1\n1,2\n", "", "its unit has no end");
+}
+
 TEST(SeriesFile, TimesMayBeRounded) {
     // A third of a second, written with three digits.
     EXPECT_NEAR(*equal_spacing({0, 0.333, 0.667, 1}), 1.0 / 3, 1e-3);

@@ -141,6 +141,25 @@ TEST(StateTable, ReadsSpreadsheetsOfOtherCountries) {
               "states.csv:2: column t: '#N/A' is an error of the spreadsheet; correct its formula, or remove the row");
 }
 
+TEST(StateTable, HeadersMayHaveUnits) {
+    StateTable const table = read("t [ms],y [mm],z,vy,vz,roll [deg],yaw,pitch,wx,wy,wz,joint.clearance [mm]\n5,0.01,0,0,0,90,0,0,0,0,0,0.2\n");
+    EXPECT_EQ(table.times[0], 5e-3);
+    EXPECT_EQ(table.inputs[0].y, 1e-5);
+    EXPECT_DOUBLE_EQ(table.inputs[0].roll, std::numbers::pi / 2);
+    EXPECT_EQ(table.inputs[0].clearance_y, 2e-4);
+    EXPECT_EQ(table.parameter_texts[0], std::vector<std::string>{"0.00020000000000000001"});
+    std::string const rest = ",z,vy,vz,roll,yaw,pitch,wx,wy,wz\n";
+    EXPECT_NE(error_of("t,y [s]" + rest).find("states.csv:1: column y [s]: "), std::string::npos);
+    EXPECT_EQ(error_of("t,y [mm" + rest), "states.csv:1: column y [mm: its unit has no end; write \"y [m]\"");
+    EXPECT_EQ(error_of("t,y [mm]" + rest + "0,x,0,0,0,0,0,0,0,0,0\n"), "states.csv:2: column y: 'x' is not a number; give a number of mm");
+}
+
+TEST(StateTable, TellsOfUnusualNumbersOnceAColumn) {
+    StateTable const table = read(std::string(states) + ",joint.clearance\n" + "0,0,0,0,0,0,0,0,0,0,0,1e-4\n0,0,0,0,0,0,0,0,0,0,0,1\n0,0,0,0,0,0,0,0,0,0,0,2\n");
+    ASSERT_EQ(table.warnings.size(), 1u);
+    EXPECT_EQ(table.warnings[0].substr(0, 38), "states.csv:3: joint.clearance is 1 m (") << table.warnings[0];
+}
+
 TEST(StateTable, SaysWhereItCannotBeUsed) {
     std::string const header = std::string(states) + "\n";
     EXPECT_EQ(error_of(""), "states.csv:1: the table is empty");
