@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "host/backend/backend.hpp"
-#include "host/backend/module_files.hpp"
 #include "host/backend/own_modules.hpp"
 #include "host/base/suggest.hpp"
 #include "host/config/reader.hpp"
@@ -35,9 +34,8 @@ void read_named(Node const* node, ModuleKind kind, std::span<std::string_view co
     std::string advice = choice_advice(node->text, names);
     // A name that is like none is of a module that is not there, or of another version of slideway.
     if (is_module_name(node->text) && nearest_name(node->text, names).empty()) {
-        std::vector<std::string> folders;
-        for (auto const& folder : module_folders(scene.modules)) folders.push_back(folder.string());
-        advice += fmt::format(", or compile its header with slideway compile (modules of this version are looked for in {})", fmt::join(folders, ", "));
+        advice += ", or compile your header that has it (slideway compile)";
+        if (!scene.modules.empty()) advice += fmt::format("; no module of this version has it in {}", fmt::join(scene.modules, ", "));
     }
     refuse(*node, {fmt::format("there is no such {}", what), advice});
 }

@@ -295,7 +295,8 @@ TEST_F(OwnModules, ThatCannotBeUsedAreOneLine) {
     write("own/slideway_law_twin_neon.so", whole);
     if (!is_built(Isa::neon)) expect_refusal(2, "compiled for neon alone", {"run", "s.toml", "-o", "s.nc"});
     fs::remove_all(path("own"));
-    expect_refusal(2, "there is no such contact law", {"run", "s.toml", "-o", "s.nc"});
+    expect_refusal(2, fmt::format("there is no such contact law); use one of paper, conservative, kelvin_voigt, foundation, rigid, or compile your header that has it (slideway compile); no module of this version has it in {}", path("own").string()),
+                   {"run", "s.toml", "-o", "s.nc"});
     expect_refusal(2, "there is no such contact law); did you mean \"paper\"?", {"run", "s.toml", "-o", "s.nc", "--set", "contact.law=papre"});
     EXPECT_FALSE(fs::exists(path("s.nc")) || fs::exists(path("s.nc.shards")));
 }

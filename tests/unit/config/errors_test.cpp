@@ -23,7 +23,7 @@ TEST(SceneErrors, UnknownMechanismsAndStudies) {
     }
     EXPECT_TRUE(contains(known, "slider_crank, carriage, "));
     EXPECT_EQ(error_in("mechanism", "kind = \"lorenz\""),
-              "scene.toml:3: mechanism.kind is \"lorenz\" (there is no such mechanism); use one of " + known);
+              "scene.toml:3: mechanism.kind is \"lorenz\" (there is no such mechanism); use one of " + known + ", or compile your header that has it (slideway compile)");
     EXPECT_TRUE(contains(error_in("mechanism", "kind = \"slider_cranc\""), "did you mean \"slider_crank\"?"));
     EXPECT_TRUE(contains(error_in("study", "kind = \"x\""), "there is no such study"));
 }

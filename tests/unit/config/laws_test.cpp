@@ -31,7 +31,7 @@ TEST(SceneLaws, HaveTheirNames) {
         EXPECT_EQ(static_cast<std::size_t>(scene_of("schema = 1", {{"contact.law", std::string(laws()[i].name)}}).parts.law), i);
     }
     EXPECT_EQ(error_of(with_law("hertz")),
-              "scene.toml:3: contact.law is \"hertz\" (there is no such contact law); use one of paper, conservative, kelvin_voigt, foundation, rigid");
+              "scene.toml:3: contact.law is \"hertz\" (there is no such contact law); use one of paper, conservative, kelvin_voigt, foundation, rigid, or compile your header that has it (slideway compile)");
     EXPECT_TRUE(contains(error_of(with_law("kelvin_voight")), "did you mean \"kelvin_voigt\"?"));
 }
 
