@@ -274,7 +274,7 @@ std::variant<double, Problem> to_si(std::string_view text, std::string_view unit
 
 ColumnHeader column_header(std::string_view text) {
     auto const bracket = text.find('[');
-    ColumnHeader header{std::string(trimmed(text.substr(0, bracket))), {}};
+    ColumnHeader header{std::string(trimmed(text.substr(0, bracket))), {}, false};
     if (bracket == text.npos) return header;
     header.is_open = !text.ends_with(']');
     header.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - (header.is_open ? 1 : 2)));

@@ -36,9 +36,10 @@ std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::strin
 struct ColumnHeader {
     std::string name;
     std::optional<std::string> unit;
-    /// To an SI unit.  @throws nothing of its own; a Problem where the unit has no end, or is of something else
-    std::variant<UnitFactor, Problem> factor_to(std::string_view si_unit) const;
     bool is_open = false;  // its bracket does not end
+
+    /// The factor to an SI unit, 1 without a unit, or why there is none.  @throws FileError as `to_si`
+    std::variant<UnitFactor, Problem> factor_to(std::string_view si_unit) const;
 };
 ColumnHeader column_header(std::string_view text);
 
