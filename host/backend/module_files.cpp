@@ -148,6 +148,9 @@ KernelModule const* open_module(fs::path const& path, std::string_view sources, 
         why = fmt::format("{} is no module of slideway", path.string());
     } else if (module->interface != kernel_interface || module->sources != sources) {
         why = fmt::format("{} is of another version of slideway's kernels ({}) than this program ({})", path.string(), module->sources, sources);
+    } else if (!path.filename().string().ends_with(fmt::format("_{}.so", module->isa))) {
+        // The name says whose packs it takes, and whoever renames it knows no better.
+        why = fmt::format("{} is compiled for {}", path.string(), module->isa);
     } else {
         return module;
     }

@@ -50,12 +50,10 @@ namespace {
 
 constexpr char const* compile_again = "compile it again with slideway compile";
 
-KernelModule const& open_own(ModuleKind kind, std::string_view name, fs::path const& path, Isa isa) {
+KernelModule const& open_own(ModuleKind kind, std::string_view name, fs::path const& path) {
     std::string why;
     KernelModule const* const module = open_own_module(path, why);
     if (module == nullptr) throw DeviceError(fmt::format("{} {}: {}; {}", name_of(kind), name, why, compile_again));
-    // A file's name says whose packs it takes, and whoever renames it knows no better.
-    if (module->isa != name_of(isa)) throw DeviceError(fmt::format("{} {}: {} is compiled for {}; {}", name_of(kind), name, path.string(), module->isa, compile_again));
     if (name_of(kind, *module) != name) throw DeviceError(fmt::format("{} {}: {} is a module of something else; {}", name_of(kind), name, path.string(), compile_again));
     return *module;
 }
@@ -86,7 +84,7 @@ std::optional<std::size_t> find_own_module(ModuleKind kind, std::string_view nam
         for (Isa const isa : isas_here()) {
             fs::path const path = folder / module_file_name(kind, name, isa);
             if (!is_file(path.string())) continue;
-            KernelModule const& module = open_own(kind, name, path, isa);
+            KernelModule const& module = open_own(kind, name, path);
             auto& known = of_kind(kind);
             auto const place = [&]() -> std::optional<std::size_t> {
                 auto const same = std::ranges::find(known, &module, &OwnModule::described);
@@ -138,7 +136,7 @@ KernelModule const& own_kernels(ModuleKind kind, std::size_t place, Isa isa) {
     if (!is_file(path.string())) {
         throw DeviceError(fmt::format("{0} {1}: there is no {2}; compile it with slideway compile --isa {3}", name_of(kind), own.name, path.string(), name_of(isa)));
     }
-    KernelModule const& found = open_own(kind, own.name, path, isa);
+    KernelModule const& found = open_own(kind, own.name, path);
     if (found.source != own.source) throw DeviceError(fmt::format("{} {}: {} is of another source than the module for other instruction sets; {}", name_of(kind), own.name, path.string(), compile_again));
     return *(kernels = &found);
 }

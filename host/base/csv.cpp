@@ -51,6 +51,8 @@ bool is_formula_error(std::string_view text) {
     return is_one && text.size() > 2 && text[0] == '#' && text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0/!?", 1) == text.npos;
 }
 
+CellFault of_formula() { return {"an error of the spreadsheet", "correct its formula, or remove the row"}; }
+
 /// Whether a line above the first row is a comment.
 bool is_comment(std::string_view row) {
     if (row.starts_with('"')) row.remove_prefix(1);
@@ -177,7 +179,7 @@ void CsvReader::split() {
 std::optional<CellFault> CsvReader::read_number(std::size_t column, CellNumber& number) {
     std::string const& text = fields_[column];
     if (text.starts_with("# ")) return CellFault{"a comment below the header", "write comments above the header"};
-    if (text.starts_with('#')) return CellFault{"an error of the spreadsheet", "correct its formula, or remove the row"};
+    if (text.starts_with('#')) return of_formula();
     if (is_missing(column)) return CellFault{"a missing value", "give a number, or remove the row"};
     auto found = marked_number(text, separator_ != ',');
     if (!found) {
@@ -199,7 +201,9 @@ std::optional<CellFault> CsvReader::read_number(std::size_t column, CellNumber& 
 
 bool CsvReader::is_number(std::size_t column) const { return marked_number(fields_[column], separator_ != ',').has_value(); }
 
-bool CsvReader::is_spreadsheet_error(std::size_t column) const { return is_formula_error(fields_[column]); }
+std::optional<CellFault> CsvReader::formula_fault(std::size_t column) const {
+    return is_formula_error(fields_[column]) ? std::optional(of_formula()) : std::nullopt;
+}
 
 bool CsvReader::is_missing(std::size_t column) const { return stands_for_nothing(fields_[column]); }
 

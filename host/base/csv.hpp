@@ -22,9 +22,9 @@ struct CellFault {
     std::string advice;  // "" where only the caller knows what to write instead
 };
 
-/// Reads rows and knows where it is.  Empty lines are skipped, above the first row also lines that begin with #, but for those that begin with an error
-/// of a spreadsheet (#N/A); further down all such lines are rows.  A first line `sep=;` is Excel's, for what separates cells.  Blanks around cells count for nothing.  A cell in double quotes may hold separators, and
-/// "" for a quote; it ends on its own line.
+/// Reads rows and knows where it is.  Empty lines are skipped, above the first row also lines that begin with #, but for those that begin with
+/// an error of a spreadsheet (#N/A); further down all such lines are rows.  A first line `sep=;` is Excel's, for what separates cells.  Blanks
+/// around cells count for nothing.  A cell in double quotes may hold separators, and "" for a quote; it ends on its own line.
 ///
 /// The first row says what separates cells: semicolons, else tabs, else commas; commas between digits beside tabs are decimal marks, and
 /// tabs beside other commas are blanks.  Empty cells at its end are no columns, and those below them are left out.  Where cells are not
@@ -45,8 +45,8 @@ public:
     /// Whether a cell is a number, or empty or a word for that: NA, NaN, null, …
     bool is_number(std::size_t column) const;
     bool is_missing(std::size_t column) const;
-    /// Whether a cell is what a spreadsheet writes where a formula has no value: #N/A, #DIV/0!, …
-    bool is_spreadsheet_error(std::size_t column) const;
+    /// Of a cell with what a spreadsheet writes where a formula has no value, #N/A, #DIV/0!, …: why it cannot be used.
+    std::optional<CellFault> formula_fault(std::size_t column) const;
     /// Refuses a row with more or fewer cells than the first.
     void require_columns() const;
 

@@ -55,22 +55,18 @@ Json of_members(ResultReader const& results, MemberRange const& range) {
     return list;
 }
 
-/// The first of those that did not finish, with what columns of text of the scene's table call them.
-/// What the table of a scene calls a member, or where there is no scene the result.
-std::string label_of(ResultReader const& results, Scene const* scene, std::uint64_t member) {
-    if (scene != nullptr) return slideway::label_of(*scene, member);
-    if (!results.has("member_label")) return {};
-    std::vector<double> const members = results.values("member");
-    auto const place = std::ranges::lower_bound(members, static_cast<double>(member)) - members.begin();
-    return results.texts("member_label").at(static_cast<std::size_t>(place));
-}
-
+/// The first of those that did not finish, with what columns of text of the scene's table call them, or where there is no scene the result.
 Json of_failed(ResultReader const& results, Scene const* scene) {
     constexpr std::size_t most = 100;
     Json list = Json::array();
-    for (FailedMember const& member : failed_members(results, most)) {
+    std::vector<FailedMember> const failed = failed_members(results, most);
+    bool const has_labels = scene == nullptr && !failed.empty() && results.has("member_label");
+    std::vector<double> const members = has_labels ? results.values("member") : std::vector<double>();
+    std::vector<std::string> const labels = has_labels ? results.texts("member_label") : std::vector<std::string>();
+    for (FailedMember const& member : failed) {
         list.push_back({{"member", member.member}, {"status", name_of(member.status)}, {"end_time", number(member.time)}});
-        std::string const label = label_of(results, scene, member.member);
+        auto const place = static_cast<std::size_t>(std::ranges::lower_bound(members, static_cast<double>(member.member)) - members.begin());
+        std::string const label = scene != nullptr ? label_of(*scene, member.member) : place < labels.size() ? labels[place] : "";
         if (!label.empty()) list.back()["label"] = label;
     }
     return list;

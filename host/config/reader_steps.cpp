@@ -20,8 +20,7 @@ std::uint64_t default_max_steps(RunLength const& length, double max_step) {
 
 void warn_of_many(Scene& scene, std::string_view key, double step, double steps) {
     constexpr double many = 1e10;  // hours of a lane
-    if (steps > many && steps <= static_cast<double>(most_steps))
-        scene.warnings.push_back(fmt::format("{} is {} s: a member takes {:.3g} steps or more", key, step, steps));
+    if (steps > many) scene.warnings.push_back(fmt::format("{} is {} s: a member takes {:.3g} steps or more", key, step, steps));
 }
 
 /// Fixed steps are known beforehand, but for what the rounding of the time adds to very many.
@@ -29,13 +28,12 @@ void read_fixed_steps(Node const& root, Scene& scene, RunLength const& length) {
     IntegratorSettings& settings = scene.integrator;
     IntegratorSettings longest = settings;
     longest.end_time = length.longest;
-    double const steps = fixed_steps(longest) + length.stops;
-    warn_of_many(scene, "integrator.step", settings.fixed_step, steps);
-    double const enough = 1000 + std::ceil(1.001 * steps);
+    double const steps = fixed_steps(longest) + length.stops, enough = 1000 + std::ceil(1.001 * steps);
     if (!(enough <= static_cast<double>(most_steps))) {
         refuse(*root.find_path("integrator.step"),
                {fmt::format("that makes {:.3g} steps", steps), "use a larger one, or method \"auto\""});
     }
+    warn_of_many(scene, "integrator.step", settings.fixed_step, steps);
     Node const* const node = root.find_path("integrator.max_steps");
     if (node == nullptr) {
         settings.max_steps = static_cast<std::uint64_t>(enough);

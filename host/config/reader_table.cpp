@@ -182,8 +182,8 @@ private:
     void add_text(std::size_t place, std::string& label) {
         std::string const& text = rows_.fields()[place];
         Column& column = columns_[place];
-        if (rows_.is_spreadsheet_error(place))
-            refuse(field_node(rows_, fmt::format("{} (column {})", column.header.text, place + 1), text), {"an error of the spreadsheet", "correct its formula, or remove the row"});
+        if (auto const fault = rows_.formula_fault(place))
+            refuse(field_node(rows_, fmt::format("{} (column {})", column.header.text, place + 1), text), {fault->reason, fault->advice});
         if (rows_.is_missing(place)) {
             column.has_missing = column.has_missing || !text.empty();
             return;

@@ -36,8 +36,9 @@ struct SealCheck {
     std::string foreign = {};                     // what neither hash covers and slideway does not write, in words; "" where there is nothing
     bool data_match() const { return payload == payload_found; }
     bool metadata_match() const { return version == 1 ? metadata.empty() : metadata == metadata_found; }
-    bool intact() const { return data_match() && metadata_match() && foreign.empty(); }
-    bool is_only_added_to() const { return data_match() && metadata_match() && !foreign.empty(); }
+    bool has_what_was_written() const { return data_match() && metadata_match(); }
+    bool intact() const { return has_what_was_written() && foreign.empty(); }
+    bool is_only_added_to() const { return has_what_was_written() && !foreign.empty(); }
     /// Which part is damaged, in words: "the data do not match their hash"; "" of an intact file.
     std::string damage() const;
 };

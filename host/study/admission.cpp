@@ -69,13 +69,17 @@ std::string depth_text(Start const& start) {
 
 constexpr std::string_view deep = "inside the way, deeper than a tenth of the clearance";
 
+/// Where a row stands: "members.csv:4".
+std::string place_of_row(Scene const& scene, std::uint64_t member) {
+    MemberTable const& table = *scene.design.table;
+    return fmt::format("{}:{}", table.name, table.lines[static_cast<std::size_t>(member)]);
+}
+
 /// Of a row, at its place in the table.
 std::optional<std::string> broken_row(Scene const& scene, std::vector<Start> const& starts) {
-    MemberTable const& table = *scene.design.table;
     for (Start const& start : starts) {
         if (!start.is_inside() && !start.is_nowhere()) continue;
-        auto const row = static_cast<std::size_t>(start.member);
-        std::string const where = fmt::format("{}:{}", table.name, table.lines[row]);
+        std::string const where = place_of_row(scene, start.member);
         if (start.is_nowhere()) return fmt::format("{}: its mechanism cannot be evaluated at the start ({})", where, name_of(start.at.status));
         return fmt::format("{}: its member starts {}: {}", where, deep, depth_text(start));
     }
@@ -106,8 +110,7 @@ bool is_of_a_file(Scene const& scene) { return scene.design.table != nullptr && 
 
 std::string unresolved_text(Scene const& scene, std::pair<std::uint64_t, Problem> const& found) {
     auto const& [member, problem] = found;
-    std::string const where = is_of_a_file(scene) ? fmt::format("{}:{}", scene.design.table->name, scene.design.table->lines[static_cast<std::size_t>(member)])
-                                                  : fmt::format("{}: member {}", scene.path, member);
+    std::string const where = is_of_a_file(scene) ? place_of_row(scene, member) : fmt::format("{}: member {}", scene.path, member);
     return fmt::format("{}: the study is too long: {}; {}", where, problem.reason, problem.advice);
 }
 

@@ -17,8 +17,7 @@ namespace slideway {
 namespace {
 
 struct Table {
-    std::vector<std::string> names;           // empty: no header
-    std::vector<ColumnHeader> headers = {};   // of the names
+    std::vector<std::string> names;  // empty: no header
     std::vector<std::vector<double>> columns;
     std::vector<std::string> faults;  // of each column what its first cell without a number is, and where; "" of numbers throughout
 
@@ -41,11 +40,10 @@ Table read_table(std::istream& in, std::string const& name) {
     bool has_number = false;
     for (std::size_t i = 0; i < count; ++i) has_number = has_number || rows.is_number(i);
     for (std::size_t i = 0; i < count && !has_number; ++i) {
-        if (rows.is_spreadsheet_error(i)) rows.fail(fmt::format("column {} is \"{}\" (an error of the spreadsheet); correct its formula, or remove the row", i + 1, rows.fields()[i]));
+        if (auto const fault = rows.formula_fault(i)) rows.fail(fmt::format("column {} is \"{}\" ({}); {}", i + 1, rows.fields()[i], fault->reason, fault->advice));
     }
     if (!has_number) {
         table.names = rows.fields();
-        for (std::string const& text : table.names) table.headers.push_back(column_header(text));
         if (!rows.next()) rows.fail("the table has a header but no row");
     }
     do {
@@ -63,18 +61,20 @@ Table read_table(std::istream& in, std::string const& name) {
     return table;
 }
 
-std::optional<std::size_t> time_column(Table const& table) {
-    auto const found = std::ranges::find_if(table.headers, [](ColumnHeader const& header) { return header.name == "time" || header.name == "t"; });
-    return found == table.headers.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - table.headers.begin()));
+/// The first column of one of these names, units left aside.
+std::optional<std::size_t> column_named(Table const& table, std::initializer_list<std::string_view> wanted) {
+    auto const found = std::ranges::find_if(table.names, [&](std::string const& name) { return std::ranges::count(wanted, column_header(name).name) > 0; });
+    return found == table.names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - table.names.begin()));
 }
+
+std::optional<std::size_t> time_column(Table const& table) { return column_named(table, {"time", "t"}); }
 
 std::size_t column_place(Table const& table, std::string const& table_name, std::string const& wanted) {
     std::size_t const count = table.columns.size();
     if (wanted.empty()) return time_column(table) == count - 1 && count > 1 ? count - 2 : count - 1;
     auto const named = std::ranges::find(table.names, wanted);
     if (named != table.names.end()) return static_cast<std::size_t>(named - table.names.begin());
-    auto const bare = std::ranges::find(table.headers, wanted, &ColumnHeader::name);
-    if (bare != table.headers.end()) return static_cast<std::size_t>(bare - table.headers.begin());
+    if (auto const bare = column_named(table, {wanted})) return *bare;
     auto const place = parse_number<std::size_t>(wanted);
     if (place && *place >= 1 && *place <= count) return *place - 1;
     std::string const known = table.names.empty() ? "" : fmt::format("one of {}, or ", fmt::join(table.names, ", "));
@@ -195,7 +195,7 @@ StoredSeries read_csv_series(std::istream& in, std::string const& name, std::str
         auto const time = time_column(table);
         if (!time) throw SceneError(fmt::format("{}: has no column time or t; give --dt SECONDS", name));
         spacing = equal_spacing(table.numbers(*time));
-        auto const factor = table.headers[*time].factor_to("s");
+        auto const factor = column_header(table.names[*time]).factor_to("s");
         if (auto const* problem = std::get_if<Problem>(&factor))
             throw SceneError(fmt::format("{}: column {}: {}; {}", name, table.label(*time), problem->reason, problem->advice));
         if (spacing) spacing = std::get<UnitFactor>(factor)(fmt::format("{}", *spacing), *spacing);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <istream>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,7 +26,8 @@ struct Column {
     std::string name;
     std::size_t state = 0;  // its place
     Key const* key = nullptr;
-    std::string unit = {};  // of its numbers, where its header says it
+    std::string wanted = "in SI units";  // numbers, for words
+    bool is_told = false;                // that one of its numbers is unusual
     UnitFactor factor = UnitFactor(1);
 };
 
@@ -98,7 +100,7 @@ std::vector<Column> read_header(Mechanism mechanism, CsvReader const& lines) {
             auto const factor = header.factor_to(unit);
             if (auto const* problem = std::get_if<Problem>(&factor)) lines.fail(fmt::format("column {}: {}; {}", text, problem->reason, problem->advice));
             column.factor = std::get<UnitFactor>(factor);
-            column.unit = header.unit.value_or("");
+            if (header.unit) column.wanted = "of " + *header.unit;
         }
         if (column.kind != Column::Kind::ignored) {
             for (Column const& other : columns) {
@@ -127,9 +129,7 @@ double number(std::size_t place, Column const& column, CsvReader& lines) {
     auto const fault = lines.read_number(place, number);
     if (!fault) return column.factor(number.text, number.value);
     lines.fail(fmt::format("column {}: '{}' is {}; {}", column.name, lines.fields()[place], fault->reason,
-                           !fault->advice.empty()    ? fault->advice
-                           : column.unit.empty() ? "give a number in SI units"
-                                                 : fmt::format("give a number of {}", column.unit)));
+                           fault->advice.empty() ? "give a number " + column.wanted : fault->advice));
 }
 
 Law law(std::string_view text, Scene const& scene, CsvReader const& lines) {
@@ -173,13 +173,7 @@ std::optional<std::string> add(StateTable& table, Inputs const& given, Parts con
     return {};
 }
 
-void warn_of_unusual(StateTable& table, Key const& key, double value, CsvReader const& lines) {
-    auto const words = unusual(key, value);
-    bool const is_new = std::ranges::none_of(table.warnings, [&](std::string const& warning) { return warning.find(key.name) != warning.npos; });
-    if (words && is_new) table.warnings.push_back(fmt::format("{}: {} {}", lines.where(), key.name, *words));
-}
-
-void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, CsvReader& lines) {
+void add_row(StateTable& table, std::vector<Column>& columns, Scene const& scene, CsvReader& lines) {
     std::vector<std::string> const& cells = lines.fields();
     lines.require_columns();
     Inputs inputs = scene.inputs;
@@ -194,7 +188,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
         if (parts.law != scene.parts.law) choose_law(parts, inputs);
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        Column const& column = columns[i];
+        Column& column = columns[i];
         switch (column.kind) {
             case Column::Kind::ignored:
                 break;
@@ -214,7 +208,8 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
                                            info(parts.law).name));
                 }
                 column.key->set(inputs, value);
-                warn_of_unusual(table, *column.key, value, lines);
+                if (auto const words = unusual(*column.key, value); words && !std::exchange(column.is_told, true))
+                    table.warnings.push_back(fmt::format("{}: {} {}", lines.where(), column.name, *words));
                 if (needs_part(*column.key, value)) require_part(parts, *column.key);
                 texts.push_back(fmt::format("{:.17g}", value));
             }
@@ -265,7 +260,7 @@ StateTable state_table(Scene const& scene, std::span<double const> states, std::
 StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene) {
     CsvReader lines(in, name);
     if (!lines.next()) lines.fail("the table is empty");
-    std::vector<Column> const columns = read_header(scene.parts.mechanism, lines);
+    std::vector<Column> columns = read_header(scene.parts.mechanism, lines);
     StateTable table = empty_table(scene);
     for (Column const& column : columns) {
         if (column.kind == Column::Kind::law || column.kind == Column::Kind::key) {

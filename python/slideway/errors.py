@@ -97,13 +97,13 @@ class StoppedEarly(KeptResults):
         """One file of the members that ended before the stop; the others have the status not_run. The shards stay as they are."""
         if self._computed is not None:
             return self._computed
-        from .program import call
+        from .program import call, shards_of
         from .results import open as open_result
         from .temporary import temporary_path
 
         if self._merged is None:
             merged = temporary_path("merged.nc")
             # Code 5 says that members are missing, which is known.
-            call(self.program, ["merge", self.output + ".shards", "-o", merged], good=(0, 5))
+            call(self.program, ["merge", shards_of(self.output), "-o", merged], good=(0, 5))
             self._merged = merged
         return open_result(self._merged, check=False)

@@ -13,7 +13,7 @@ import xarray as xr
 
 from . import arguments
 from .errors import FileError, RunError, SlidewayError
-from .program import call, error_of, find_program
+from .program import call, error_of, find_program, shards_of
 from .results import StrPath
 from .results import open as open_result
 from .runs import run_command
@@ -78,12 +78,13 @@ def merge(output: StrPath, *, force: bool = False) -> xr.Dataset:
     4
     """
     name = arguments.path(output, "output")
-    if not os.path.isdir(name + ".shards"):
+    shards = shards_of(name)
+    if not os.path.isdir(shards):
         raise SlidewayError(f"{name}.shards: there is no such folder; run the parts of this output first")
     found = find_program()
     with _beside(name) as made:
         try:
-            call(found, ["merge", name + ".shards", "-o", made, *(["--force"] if force else [])])
+            call(found, ["merge", shards, "-o", made, *(["--force"] if force else [])])
         except RunError as error:
             raise error_of(error.code, error.line.replace(made, name), name, found) from None
     return open_result(name, check=False)
@@ -103,7 +104,7 @@ def _beside(output: str) -> Iterator[str]:
     try:
         with tempfile.TemporaryDirectory(prefix=".slideway_", dir=os.path.dirname(place), ignore_cleanup_errors=True) as folder:
             made = os.path.join(folder, os.path.basename(place))
-            os.symlink(os.path.realpath(output + ".shards"), made + ".shards")
+            os.symlink(os.path.realpath(shards_of(output)), made + ".shards")
             if replaces:
                 _link(place, made)
             yield made

@@ -53,6 +53,11 @@ def _packaged() -> str | None:
     return shutil.which(os.path.join(os.path.dirname(__file__), "bin", "slideway"))
 
 
+def shards_of(output: str) -> str:
+    """The folder of a result's shards: beside what a link to the result leads to, unless they were made before there was a link."""
+    return output + ".shards" if os.path.isdir(output + ".shards") else os.path.realpath(output) + ".shards"
+
+
 def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] = (0,)) -> str:
     """Calls a command that is soon done.
 

@@ -95,6 +95,18 @@ def test_merge_goes_through_a_link(program: str, tmp_path: Path) -> None:
     assert (tmp_path / "out.nc").is_symlink() and left(tmp_path / "disk") == ["far.nc"]
 
 
+def test_parts_and_errors_go_through_a_link_that_was_there_before(program: str, tmp_path: Path) -> None:
+    (tmp_path / "link.nc").symlink_to("real.nc")
+    slideway.run_part(small, tmp_path / "link.nc", 2, 2)
+    assert left(tmp_path) == ["link.nc", "real.nc.shards"]
+    with pytest.raises(slideway.StoppedEarly) as caught:
+        slideway.merge(tmp_path / "link.nc")
+    assert int((caught.value.dataset.status == 0).sum()) == 3
+    slideway.run_part(small, tmp_path / "link.nc", 1, 2)
+    assert slideway.merge(tmp_path / "link.nc").sizes["member"] == 6
+    assert (tmp_path / "link.nc").is_symlink() and (tmp_path / "real.nc").is_file()
+
+
 def test_merge_is_refused_while_a_part_is_at_work(former: bytes, tmp_path: Path) -> None:
     output = tmp_path / "out.nc"
     with open(f"{output}.shards/lock", "rb+") as lock:

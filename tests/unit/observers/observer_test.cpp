@@ -311,6 +311,15 @@ TEST(Observer, CountsOnsetsFromFreeFlightAlone) {
     EXPECT_EQ(watched(Quantity::contact_onsets), 2);
 }
 
+/// In all quantities.
+void expect_equal(Watched const& found, Watched const& wanted) {
+    for (int q = 0; q < quantity_count; ++q) {
+        for (int column = 0; column < quantity_table[q].columns; ++column) {
+            EXPECT_EQ(found(static_cast<Quantity>(q), column), wanted(static_cast<Quantity>(q), column)) << quantity_table[q].name;
+        }
+    }
+}
+
 TEST(Observer, TakesNothingFromARejectedLane) {
     Watched seen, unseen;
     std::vector<double> const means(Observer::integrals, 4.0);
@@ -326,12 +335,7 @@ TEST(Observer, TakesNothingFromARejectedLane) {
         watched->step(2, in_mode(0, 1, 0));
         watched->finish(4);
     }
-    for (int q = 0; q < quantity_count; ++q) {
-        for (int column = 0; column < quantity_table[q].columns; ++column) {
-            EXPECT_EQ(unseen(static_cast<Quantity>(q), column), seen(static_cast<Quantity>(q), column))
-                << quantity_table[q].name;
-        }
-    }
+    expect_equal(unseen, seen);
 }
 
 TEST(Observer, BeginsEveryMemberAnew) {
@@ -345,12 +349,7 @@ TEST(Observer, BeginsEveryMemberAnew) {
         watched->step(1, with_energy(2), {}, std::vector<double>(Observer::integrals, 1.0));
         watched->finish(1);
     }
-    for (int q = 0; q < quantity_count; ++q) {
-        for (int column = 0; column < quantity_table[q].columns; ++column) {
-            EXPECT_EQ(used(static_cast<Quantity>(q), column), fresh(static_cast<Quantity>(q), column))
-                << quantity_table[q].name;
-        }
-    }
+    expect_equal(used, fresh);
 }
 
 TEST(Observer, WritesTheSelectedQuantitiesAlone) {
