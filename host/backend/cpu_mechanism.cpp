@@ -20,6 +20,11 @@ concept TellsSignals = requires(IsaReal t, IsaReal const* state, typename Base::
     Mechanism::put_signals(t, state, p, report, values);
 };
 
+template <class Base> concept HasLanes = requires { sizeof(LanesOf<Base>); };
+template <class Mechanism> concept HasParameters = requires { &Mechanism::parameters; };
+template <class Mechanism> concept HasDerivative = requires { &Mechanism::template derivative<false, IsaReal, LawFunctions<IsaReal>>; };
+template <class Mechanism> concept HasGap = requires { &Mechanism::template gap<IsaReal, LawFunctions<IsaReal>>; };
+
 template <class Mechanism, class Base> struct Compiled {
     using Signals = SignalsOf<Mechanism>;
     static constexpr auto functions = MechanismFunctions<IsaReal, Base, Signals>::template of<Mechanism>();
@@ -52,7 +57,12 @@ template <class Mechanism, class Base> consteval MechanismKernels kernels_of() {
                       "the signals have too many quantities; say which statistics each has: statistics_of(Statistic::maximum, …)");
         constexpr bool tells = info.signals.empty() || TellsSignals<Mechanism, Base>;
         static_assert(tells, "the mechanism's info has signals, and there is no put_signals(t, state, parameters, report, values) that tells them");
-        if constexpr (tells) return Compiled<Mechanism, Base>::kernels;
+        constexpr bool has_lanes = HasLanes<Base>;
+        static_assert(has_lanes, "nothing says how lanes treat SLIDEWAY_BASE: `template <> struct LanesOf<Base> : SpatialLanes<Base> {};`");
+        static_assert(HasParameters<Mechanism>, "the mechanism has no `parameters(inputs)`");
+        static_assert(HasDerivative<Mechanism>, "the mechanism has no `derivative<Full, Real, Law>(t, state, parameters, memory, conditions, rates, report)`: is it a SpatialSlider<Guide>?");
+        static_assert(HasGap<Mechanism>, "the mechanism has no `gap<Real, Law>(t, state, parameters, conditions, apex)`: is it a SpatialSlider<Guide>?");
+        if constexpr (tells && has_lanes && HasParameters<Mechanism> && HasDerivative<Mechanism> && HasGap<Mechanism>) return Compiled<Mechanism, Base>::kernels;
     }
     return {};
 }

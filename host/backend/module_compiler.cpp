@@ -315,6 +315,15 @@ std::optional<std::string> present(fs::path const& folder, ModuleKind kind, Isa 
     return std::nullopt;
 }
 
+/// Before anything is compiled.
+void require_writable(fs::path const& folder) {
+    std::error_code none;
+    fs::path at = folder;
+    while (!fs::exists(at, none) && at.has_relative_path()) at = at.parent_path();
+    if (fs::is_directory(at, none) && access(at.c_str(), W_OK | X_OK) == 0) return;
+    throw FileError(fmt::format("{}: no module can be written there ({}); give another folder with -o", folder.string(), fs::is_directory(at, none) ? std::strerror(errno) : at.string() + " is no folder"));
+}
+
 /// Puts a module into its place; of its name no other source is left there.
 void place(fs::path const& made, fs::path const& folder, ModuleKind kind, std::string const& name, Isa isa, std::string const& source) {
     fs::path const to = folder / module_file_name(kind, name, isa), beside = fmt::format("{}.{}", to.string(), getpid());
@@ -345,6 +354,7 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
     if (file.string().find_first_of("\"\\\n") != std::string::npos) throw SceneError(fmt::format("{}: a path with quotes or a backslash cannot be compiled", request.header));
     fs::path const folder = request.folder.empty() ? user_module_folder() : fs::absolute(request.folder, none);
     if (folder.empty()) throw SceneError("neither HOME nor XDG_CACHE_HOME says where modules go; give a folder with -o");
+    require_writable(folder);
     std::vector<Isa> const isas = request.isas.empty() ? isas_here() : request.isas;
     WorkFolder const work;
     Toolchain const tools = toolchain(work.path());

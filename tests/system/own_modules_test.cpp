@@ -330,9 +330,16 @@ TEST_F(OwnModules, AreRefusedWithTheCompilersWordsOrOneLine) {
     refused("struct Law {};\n#define SLIDEWAY_LAW Law\n", "static assertion failed: the law has no `static constexpr LawInfo info`");
     refused("struct Mechanism {};\n#define SLIDEWAY_MECHANISM Mechanism\n", "static assertion failed: the mechanism has no `static constexpr MechanismInfo info`");
     refused("#include \"kernels/mechanisms/mechanism_info.hpp\"\nstruct Nameless { static constexpr slideway::MechanismInfo info{}; };\n#define SLIDEWAY_MECHANISM Nameless\n", "static assertion failed: the mechanism's info says no name");
+    refused(with("struct Twin : KelvinVoigt {", "struct Twin {"), "static assertion failed: the law has no `forces<Damping>(motion, face, contact)`");
+    std::string const empty = "#include \"kernels/mechanisms/spatial_slider.hpp\"\nusing namespace slideway;\nstruct OwnBase : SliderBase {};\nstruct Empty { static constexpr MechanismInfo "
+                              "info = [] { auto info = spatial_slider_info(); info.name = info.meaning = \"empty\"; return info; }(); };\n#define SLIDEWAY_MECHANISM Empty\n";
+    refused(empty, "static assertion failed: the mechanism has no `derivative<Full, Real, Law>(");
+    refused(empty + "#define SLIDEWAY_BASE OwnBase\n", "static assertion failed: nothing says how lanes treat SLIDEWAY_BASE");
     expect_refusal(2, "there is no such file", {"compile", "nowhere.hpp"});
     setenv("CXX", "/no/compiler", 1);
     write("twin.hpp", twin);
+    write("file", "");
+    expect_refusal(4, "/file is no folder); give another folder with -o", {"compile", "twin.hpp", "-o", "file/own"});  // before anything is compiled
     expect_refusal(4, "/no/compiler does not start", {"compile", "twin.hpp", "-o", "own"});
     unsetenv("CXX");
 }
