@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench/spread.hpp"
+#include "host/config/keys.hpp"
 #include "kernels/laws/list.hpp"
 #include "tests/support/ensemble.hpp"
 
@@ -25,13 +26,16 @@ std::span<EngineCase const> engine_cases() {
         {"rattling by the clocks of impacts", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-5, Method::verner65},
         {"settling, conservative", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 0.4, 1e-4},
         {"crank turn, conservative", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 2, 1e-3},
+        {"pitched way, conservative", {Law::conservative, Damping::point, true, true}, 1e-4, pi, 0, 0.05, 1e-6, Method::automatic, 6e-5},
+        {"bed without damping", {Law::foundation, Damping::point, true, false}, 1e-4, pi, 0, 0.05, 1e-6},
+        {"creep, conservative", {Law::conservative, Damping::rate, true, false}, 1e-4, 0.01, 10, 1, 1e-6},
     };
     return cases;
 }
 
 std::string text_of(EngineCase const& c) {
-    return fmt::format("{} s, rtol {:.0e}, clearance {} mm, {:.3g} rad/s, χ = {}", c.end_time, c.rtol,
-                       1e3 * c.clearance, c.crank_speed, c.chi);
+    return fmt::format("{} s, rtol {:.0e}, clearance {} mm, {:.3g} rad/s, χ = {}, pitch of the way {} mrad", c.end_time, c.rtol,
+                       1e3 * c.clearance, c.crank_speed, c.chi, 1e3 * c.pitch);
 }
 
 IntegratorSettings settings_of(EngineCase const& c) {
@@ -45,6 +49,8 @@ IntegratorSettings settings_of(EngineCase const& c) {
 std::vector<Inputs> members_of(EngineCase const& c, std::size_t count) {
     auto members = testing::scattered_starts(count, c.clearance, c.crank_speed);
     for (std::size_t i = 0; i < members.size(); ++i) {
+        members[i] = with_presets(members[i], c.parts.law);
+        members[i].way_pitch = c.pitch;
         bench::spread_inputs(members[i], c.chi, [&](double irrational) {
             double const x = static_cast<double>(i + 1) * irrational;
             return 0.8 + 0.4 * (x - std::floor(x));

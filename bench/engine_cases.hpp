@@ -1,4 +1,4 @@
-// What the benchmarks of the whole engine run: six scenes, and members that scatter about them.
+// What the benchmarks of the whole engine run: scenes, and members that scatter about them.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@ struct EngineCase {
     Parts parts;
     double clearance, crank_speed, chi, end_time, rtol;
     Method method = Method::automatic;
+    double pitch = 0;  // of the way [rad]
 };
 std::span<EngineCase const> engine_cases();
 /// "0.05 s, rtol 1e-06, clearance 0.1 mm …"
