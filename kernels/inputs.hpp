@@ -89,7 +89,7 @@ struct Parts {
     row(eta, "contact.eta", 0.01, "1", not_negative, point_damping, "damping ratio of point contacts")  /* η, C = ηK numerically */ \
     row(chi_line, "contact.chi_line", 0, "s/m", not_negative, edges, "dissipation of line contacts")  /* χ */ \
     row(chi_surface, "contact.chi_surface", 0, "s/m", not_negative, surfaces, "dissipation of surface contacts") \
-    row(restitution, "contact.restitution", 1, "1", half_open_unit, restitution, "coefficient of restitution of isolated impacts")  /* e */ \
+    row(restitution, "contact.restitution", 1, "1", unit_interval, restitution, "coefficient of restitution of isolated impacts")  /* e */ \
     /* [friction] */ \
     row(friction_static, "friction.static", 0.15, "1", not_negative, slider, "static friction coefficient")  /* μs */ \
     row(friction_kinetic, "friction.kinetic", 0.10, "1", not_negative, slider, "kinetic friction coefficient")  /* μd */ \

@@ -14,7 +14,6 @@ enum class Rule {
     not_negative,     // >= 0
     gap,              // > 0, the reason being the joint's clearance
     unit_interval,    // [0, 1]
-    half_open_unit,   // (0, 1]
     poisson_ratio,    // (-1, 0.5]
     hertz_exponent,   // [1, 3]
     right_angle,      // [-π/2, π/2]

@@ -54,7 +54,6 @@ constexpr struct {
     {{.low = 0}, "the {} must be zero or positive", "use a value >= 0"},
     {{.low = 0, .low_included = false}, "the joint needs a gap", "use a value > 0"},
     {{0, 1}, "the {} must be in [0, 1]", "use a value from 0 to 1"},
-    {{0, 1, false}, "the {} must be in (0, 1]", "use a value > 0 and <= 1"},
     {{-1, 0.5, false}, "no isotropic solid has it", "use a value > -1 and <= 0.5"},
     {{1, 3}, "the {} must be in [1, 3]", "use a value from 1 to 3"},
     {{-std::numbers::pi / 2, std::numbers::pi / 2}, "the {} must be in [-90, 90] degrees", "use a value from -90 deg to 90 deg"},
@@ -245,6 +244,10 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
         if (!problem) continue;
         if (std::isnan(key.get(inputs))) problem->reason += fmt::format(", and follows from {}", derivation_of(key, parts, in));
         return Defect{&key, nullptr, key.get(in), *problem};
+    }
+    if (parts.damping == Damping::restitution && !parts.rigid && in.restitution == 0) {
+        return Defect{find_key("contact.restitution"), nullptr, 0.0,
+                      {"what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"}};
     }
     auto const clash = [&](std::string_view name, std::string_view other, std::string reason, std::string advice) {
         Key const* const key = find_key(name);

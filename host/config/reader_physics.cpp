@@ -221,7 +221,7 @@ void check_restitution(Node const& root, Scene const& scene) {
                         (scene.chaos.parameter != nullptr && scene.chaos.parameter->name == name);
     if (!needs_restitution(scene.parts) || varied || root.find_path(name) != nullptr) return;
     std::string const what = scene.parts.rigid ? std::string("rigid contacts need") : fmt::format("{} needs", info(scene.parts.law).name);
-    refuse(*root.find_path("contact.law"), {what + " contact.restitution", "give it, above 0 and at most 1"});
+    refuse(*root.find_path("contact.law"), {what + " contact.restitution", "give it, from 0 to 1"});
 }
 
 void tell_of_contacts(Node const& root, Scene& scene) {

@@ -78,7 +78,7 @@ TEST(RigidImpacts, BouncesHaveTheirHeightsAndTimes) {
 }
 
 TEST(RigidImpacts, ChatterEndsWithItsGeometricSum) {
-    for (double const e : {0.3, 0.6, 0.9}) {
+    for (double const e : {0.0, 0.3, 0.6, 0.9}) {
         auto const in = pendulum(e);
         Pendulum const exact(in);
         long double const c = in.clearance_y;

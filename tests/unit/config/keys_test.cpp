@@ -160,7 +160,7 @@ TEST(Keys, RulesHoldAtTheirLimits) {
         {"contact.eta", 0, -tiny},
         {"contact.chi_line", 0, -1},
         {"contact.restitution", 1, 1.001},
-        {"contact.restitution", 0.01, 0},
+        {"contact.restitution", 0, -tiny},
         {"friction.static", 0, -0.1},
         {"friction.kinetic", 2, -0.1},
         {"friction.stick_speed", 1e-6, 0},
