@@ -17,7 +17,7 @@ template <class Laws> struct Conditions {
     bool continuous = false;  // LawInfo::continuous, with this damping
     bool free_crank = false;
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
-    bool in_impacts = false;      // and go by the clocks of impacts
+    bool by_clocks = false;      // and go by the clocks of impacts
     bool powers_alone = false;    // reports tell the powers of the energy audit, and nothing else
 
     constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)

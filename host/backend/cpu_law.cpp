@@ -13,9 +13,8 @@ template <class Law> concept HasInfo = requires { LawInfo{Law::info}; };
 /// @return whether the law has both functions with a damping that it should have; each that it lacks is one line
 template <class Law, bool Wanted, class Damping> consteval bool has_functions() {
     if constexpr (Wanted) {
-        using Motion = FaceMotion<IsaReal>;
-        constexpr bool forces = requires(Motion m, FaceContact<IsaReal> f, ContactParameters<IsaReal> c) { FaceForces<IsaReal>{Law::template forces<Damping>(m, f, c)}; };
-        constexpr bool stiffness = requires(Motion m, FaceContact<IsaReal> f, ContactParameters<IsaReal> c) { FaceStiffness<IsaReal>{Law::template stiffness<Damping>(m, f, c)}; };
+        constexpr bool forces = requires(FaceMotion<IsaReal> m, FaceContact<IsaReal> f, ContactParameters<IsaReal> c) { FaceForces<IsaReal>{Law::template forces<Damping>(m, f, c)}; };
+        constexpr bool stiffness = requires(FaceMotion<IsaReal> m, FaceContact<IsaReal> f, ContactParameters<IsaReal> c) { FaceStiffness<IsaReal>{Law::template stiffness<Damping>(m, f, c)}; };
         static_assert(forces, "the law has no `forces<Damping>(motion, face, contact)` that gives FaceForces with a damping of its info (kernels/laws/contact.hpp)");
         static_assert(stiffness, "the law has no `stiffness<Damping>(motion, face, contact)` that gives FaceStiffness with a damping of its info (kernels/laws/contact.hpp)");
         return forces && stiffness;

@@ -318,7 +318,7 @@ std::optional<std::string> present(fs::path const& folder, ModuleKind kind, Isa 
 /// Before anything is compiled.
 void require_writable(fs::path const& folder) {
     std::error_code none;
-    fs::path at = folder;
+    auto at = folder;
     while (!fs::exists(at, none) && at.has_relative_path()) at = at.parent_path();
     if (fs::is_directory(at, none) && access(at.c_str(), W_OK | X_OK) == 0) return;
     throw FileError(fmt::format("{}: no module can be written there ({}); give another folder with -o", folder.string(), fs::is_directory(at, none) ? std::strerror(errno) : at.string() + " is no folder"));

@@ -246,8 +246,7 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
         return Defect{&key, nullptr, key.get(in), *problem};
     }
     if (parts.damping == Damping::restitution && !parts.rigid && in.restitution == 0) {
-        return Defect{find_key("contact.restitution"), nullptr, 0.0,
-                      {"what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"}};
+        return Defect{find_key("contact.restitution"), nullptr, 0.0, {"what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"}};
     }
     auto const clash = [&](std::string_view name, std::string_view other, std::string reason, std::string advice) {
         Key const* const key = find_key(name);

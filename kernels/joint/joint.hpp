@@ -34,7 +34,7 @@ public:
         Real const nothing = whole - whole;
         Wrench<Real> w;
         w.force = w.torque = {nothing, nothing, nothing};
-        if (block_.in_impacts && any(memory_.holding > Real(0.5))) {
+        if (block_.by_clocks && any(memory_.holding > Real(0.5))) {
             // Of a copy: what a function of its own sees stays in memory, and the faces below are to have it in registers.
             auto seen = motion_;
             auto held = HeldContacts<Real, Laws, Full>::wrench(seen, memory_, p_, block_, report_);
@@ -50,7 +50,7 @@ public:
     }
 
     /// Whether the depth of a pair is the clock's in any lane, and then its rate δ' [m/s].
-    SLIDEWAY_FN bool has_clock() const { return block_.in_impacts && any(memory_.clock > Real(-0.5)); }
+    SLIDEWAY_FN bool has_clock() const { return block_.by_clocks && any(memory_.clock > Real(-0.5)); }
     SLIDEWAY_FN Real clock_rate() const { return clock_rate_; }
 
 private:

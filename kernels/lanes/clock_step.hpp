@@ -75,8 +75,6 @@ public:
         for (int i = 0; i < size; ++i) of_state[i] = step_.own * fnma(to.end_rates[i], of_time, Pair::error_slope(numbers_.k, i));
     }
 
-    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
-
     /// The state inside the step, at fraction θ of its time.
     SLIDEWAY_HD void dense(StepStart<Model, Real> const&, Attempt<Model, Real> const& to, Real theta, Real* state) const {
         Real const share = share_at(to.step, theta);

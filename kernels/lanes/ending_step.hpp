@@ -59,8 +59,6 @@ public:
         for (int i = 0; i < size; ++i) of_state[i] = whole_ * Pair::error_slope(numbers_.k, i);
     }
 
-    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
-
     /// The state inside the step, at fraction θ of what is left of it.
     SLIDEWAY_FN void dense(StepStart<Model, Real> const&, Attempt<Model, Real> const&, Real theta, Real* state) const {
         place(theta * share_, state);

@@ -29,16 +29,12 @@ template <class Stepper, class Model, class Real> struct ErrorNorm {
             Real errors[size];
             stepper.errors(to, errors);
             Real const fine = sum_of(pack, settings, from, to, errors, pack.audit_error);
-            if constexpr (requires { stepper.has_two_estimates(); }) {
-                // A norm that falls with the order of the method: a²/(a² + b²/100) of the sums of squares a of the fine estimate and b of the
-                // coarse one times a² (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.10).
-                if (stepper.has_two_estimates()) {
-                    stepper.coarse_errors(to, errors);
-                    Real const coarse = sum_of(pack, settings, from, to, errors, pack.coarse_audit_error);
-                    return fine * (fine / max(Real(1e-300), fma(Real(0.01), coarse, fine))) * Real(1.0 / size);
-                }
-            }
-            return fine * Real(1.0 / size);
+            if (!stepper.has_two_estimates()) return fine * Real(1.0 / size);
+            // A norm that falls with the order of the method: a²/(a² + b²/100) of the sums of squares a of the fine estimate and b of the
+            // coarse one times a² (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.10).
+            stepper.coarse_errors(to, errors);
+            Real const coarse = sum_of(pack, settings, from, to, errors, pack.coarse_audit_error);
+            return fine * (fine / max(Real(1e-300), fma(Real(0.01), coarse, fine))) * Real(1.0 / size);
         }
     }
 

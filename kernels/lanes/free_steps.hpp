@@ -56,13 +56,12 @@ protected:
     /// Whether events of the contacts end steps that have been made.
     SLIDEWAY_HD static bool may_cut(Step const& step) { return step.pack.needs.cuts() && step.adapts(); }
 
-    /// Fraction of the step at which the first of them is, of a member or a neighbour; 1 where none must end it.  @param located depth of one that is found [m]
-    SLIDEWAY_HD static Real first_event(Step const& step, Mask<Real> accepted, Real located) {
-        auto const& pack = step.pack;
+    /// Lanes whose step is long enough to be cut.
+    SLIDEWAY_HD static Mask<Real> are_long(Step const& step, Mask<Real> accepted) { return accepted & (step.attempt.step > step.least_cut()); }
+    /// Fraction of the step at which the first of a member's events is; 1 where none must end it.  @param located depth of one that is found [m]
+    SLIDEWAY_HD static Real first_event(Step const& step, Mask<Real> long_enough, Real located) {
         auto const& attempt = step.attempt;
-        auto const early = accepted & (attempt.step > step.least_cut());
-        Real const fraction = pack.state.contacts.watch.earliest(early, attempt.report.contact, attempt.step, located, pack.needs.watching);
-        return step.neighbours.first_event(pack, early, located, fraction);
+        return step.pack.state.contacts.watch.earliest(long_enough, attempt.report.contact, attempt.step, located, step.pack.needs.watching);
     }
 
     /// Has lanes, of those that are accepted so far, try again with a fraction of their step.

@@ -40,7 +40,7 @@ public:
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
-        if constexpr (CanHoldContacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
+        pack_.model.hold_contacts(pack_.needs.watching);
         pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
         pack_.pair = &pair_of(block.settings, pack_.needs.watching);
@@ -73,9 +73,8 @@ private:
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
     static constexpr bool is_smooth = !Model::has_contacts && !Model::has_linearisation;
-    static constexpr bool ends_early = HasImpacts<Model> && !Model::has_shadows;
     // Attempts of a stint: few where lanes are regrouped by what they touch, the fewer the sooner that changes, many where all have the same work.
-    static constexpr int many_attempts = 512, attempts = !Regroups<Model> ? many_attempts : HasImpacts<Model> ? 8 : 16;
+    static constexpr int many_attempts = 512, attempts = !Regroups<Model> ? many_attempts : IsRigid<Model> ? 8 : 16;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
 
@@ -102,8 +101,8 @@ private:
         Real occupied(0.0);
         for (int i = 0; i < width; ++i) {
             if (i < members) set_lane(occupied, i, 1.0);
-            if constexpr (width > 1) {
-                Record const& r = records_[chosen[i < members ? i : 0]];
+            if (width > 1) {
+                Record const& r = record(chosen[i < members ? i : 0]);
                 load_lane(pack_.state.constants, i, r.constants);
                 each_moving_part(r, [i](auto& packed, auto const& own) { load_lane(packed, i, own); });
             }
@@ -121,8 +120,8 @@ private:
                 continue;
             }
             auto const& c = pack_.state.course;
-            if constexpr (width > 1) {
-                each_moving_part(records_[seat], [i](auto const& packed, auto& own) { store_lane(packed, i, own); });
+            if (width > 1) {
+                each_moving_part(record(seat), [i](auto const& packed, auto& own) { store_lane(packed, i, own); });
             }
             roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;
             roster_[seat].pattern = static_cast<std::uint32_t>(lane(pattern_, i));
@@ -168,7 +167,7 @@ private:
         } else if (Model::has_own_stepper && settings.method == Method::automatic) {
             Model::template with_stepper<Model, Real>(settings.rtol, [&]<class Stepper>(Stepper*) { work<Stepper>(); });
         } else {
-            work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<Model, Real>>>();
+            work<std::conditional_t<HasTimeStepping<Model>, EndingStep<DormandPrince, Model, Real>, ExplicitStep<Model, Real>>>();
         }
         look(kind);
     }
@@ -178,7 +177,7 @@ private:
         bool const is_automatic = settings.method == Method::automatic;
         if (settings.method == Method::verner65) return pair_numbers<Verner65>();
         // Impacts, whose steps are many and short, would gain nothing by the others (docs/rigid.md).
-        if (HasImpacts<Model>) return pair_numbers<DormandPrince>();
+        if (IsRigid<Model>) return pair_numbers<DormandPrince>();
         if (settings.method == Method::rk4) return pair_numbers<RungeKutta4>();
         // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
         if (settings.method == Method::dop853 || (is_automatic && is_smooth)) return pair_numbers<Dop853>();
@@ -223,20 +222,12 @@ private:
     /// Between stints: who touches what, and who is better off with the stiff method.
     SLIDEWAY_HD void look(Kind kind) {
         pattern_ = Real(0.0);
-        if constexpr (Regroups<Model> && HasImpacts<Model>) {
-            pattern_ = pack_.model.contact_pattern(pack_.state.contacts.memory);
-        } else if constexpr (Regroups<Model>) {
+        if constexpr (Regroups<Model>) {
             auto const& s = pack_.state;
             bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
                                    !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
-            if constexpr (HasClocks<Model>) {
-                if (pack_.needs.watching == Watching::impacts) {
-                    pattern_ = HeldFace<Real>::pattern(s.contacts.memory);
-                    return;
-                }
-            }
-            pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters);
+            pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters, s.contacts.memory);
             if constexpr (Model::has_linearisation) {
                 if (switching && kind == Kind::explicit_pair) {
                     MethodChoice<Model, Real>::look_for_stiffness(pack_, pack_.busy & (pattern_ > Real(0.5)));

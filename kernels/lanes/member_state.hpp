@@ -21,8 +21,8 @@ template <bool is_there, class Part> using PartIf = std::conditional_t<is_there,
 
 /// The resets of a model with events, of late.
 template <class Real> struct ResetHistory {
-    Real time;    // of the last one [s]
-    Real in_row;  // how many followed one another at once
+    Real time = Real(-1.0);   // of the last one [s]
+    Real in_row = Real(0.0);  // how many followed one another at once
 };
 
 template <class Model, class Real> struct AccelerationsOf { using Type = NoAccelerations; };
@@ -36,7 +36,7 @@ template <class Real> struct ShadowCourse {
 };
 
 /// What a member remembers for its next impact, of a method with clocks.
-template <class Real> struct ImpactCourse {
+template <class Real> struct ClockCourse {
     Real step;          // the next by its clock, 0 before there is one
     Real flight_step;   // that its impacts interrupt [s]
     Real alone, beside; // first step by the clock times √δ': of the last impact of a pair alone, and beside other pairs
@@ -72,7 +72,7 @@ template <class Model, class Real> struct MemberState {
         Real stiffness;     // explicit: looks that found the member stiff; stiff: calm steps in a row
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] PartIf<Model::has_shadows, ShadowCourse<Real>> shadowed;
-        [[no_unique_address]] PartIf<HasClocks<Model>, ImpactCourse<Real>> impacts;
+        [[no_unique_address]] PartIf<HasClocks<Model>, ClockCourse<Real>> clocked;
         [[no_unique_address]] PartIf<HasEvents<Model>, ResetHistory<Real>> resets;
     };
 
@@ -97,7 +97,7 @@ template <class Model, class Real> struct MemberState {
         Real y[Model::size], rates[Model::size];
         Real distance;  // from the member, after the last stop; dimensionless
         Real growth;    // ln of it since the last record
-        [[no_unique_address]] PartIf<!HasImpacts<Model>, Contacts> contacts;
+        [[no_unique_address]] PartIf<!IsRigid<Model>, Contacts> contacts;
     };
 
     Constants constants;

@@ -4,10 +4,11 @@
 
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/watching.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What most models leave as it is; one that has more to say hides it.
+/// What most models leave as it is; one that has more to say hides it, in itself or in ConditionsOfBlock.
 struct ModelDefaults {
     /// Whether the model brings the stepper that `auto` takes.
     static constexpr bool has_own_stepper = false;
@@ -15,27 +16,34 @@ struct ModelDefaults {
     SLIDEWAY_HD static void set_tolerance(double /*rtol*/) {}
     /// Reports, from here on, are of stages inside a step, which tell what is integrated and nothing else; and of that, perhaps, the audit's powers alone.
     SLIDEWAY_HD static void tell_stages(bool /*inside*/, bool /*powers_alone*/) {}
+    /// At which events of its contacts steps end, and whether its law switches.
+    SLIDEWAY_HD static constexpr Watching watching(bool /*locate_modes*/, bool /*neighbours*/) { return Watching::nothing; }
+    SLIDEWAY_HD static constexpr bool switches() { return false; }
+    /// What steps take as given of the contacts, from here on.
+    SLIDEWAY_HD static void hold_contacts(Watching) {}
     /// Components of the state that the drive prescribes, a bit each: neighbours cannot differ in them.
     SLIDEWAY_HD static constexpr unsigned prescribed() { return 0; }
     /// Acceleration of the equilibrium that steps of the stiff method are to follow, of each component of the state that is a place; 0 of others.
     template <class Real, class Parameters>
     SLIDEWAY_FN static void bend(Real /*t*/, Real /*step*/, Real const* /*state*/, Parameters const&, Real* /*of_state*/) {}
+    /// Of a model whose impacts have no duration and that has slips: how long ago those were slips that have just come to rest [s], 0 where none has; and an
+    /// offset kept to what contacts hold.
+    template <class... Contacts> SLIDEWAY_FN static double since_slip(Contacts const&...) { return 0; }
+    template <class... Offset> SLIDEWAY_FN static void keep_offset(Offset const&...) {}
 };
 
 /// Whether a model's accelerations may be asked for: it names an `Accelerations<Real>`.
 template <class Model> concept HasAccelerations = requires { typename Model::template Accelerations<double>; };
-/// Whether the steps of a model may take its contacts as given.
-template <class Model> concept CanHoldContacts = requires(Model& model) { model.hold_contacts({}); };
-/// Whether they may then go by the clock of a contact (ContactClock).
-template <class Model> concept HasClocks = CanHoldContacts<Model> && Model::has_patterns && !Model::has_shadows;
 /// Whether a model has events of its own, and brings their search.
 template <class Model> concept HasEvents = requires { requires Model::events > 0; };
 /// Whether impacts of a model have no duration: where a step ends its `settle` says what follows.
-template <class Model> concept HasImpacts = requires { requires Model::has_impacts; };
+template <class Model> concept IsRigid = requires { requires Model::is_rigid; };
+/// Whether steps may hold a model's contacts, and go by the clock of one (ContactClock).
+template <class Model> concept HasClocks = Model::has_contacts && !IsRigid<Model> && Model::has_patterns && !Model::has_shadows;
 /// Whether a model with impacts may be integrated by time stepping: the rule takes no shadows along.
-template <class Model> concept HasTimeStepping = HasImpacts<Model> && !Model::has_shadows;
+template <class Model> concept HasTimeStepping = IsRigid<Model> && !Model::has_shadows;
 /// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
-template <class Model> concept Regroups = Model::has_patterns && !(HasImpacts<Model> && Model::has_shadows);
+template <class Model> concept Regroups = Model::has_patterns && !(IsRigid<Model> && Model::has_shadows);
 
 /// What lanes ask of a model.  The assertions name what is missing of what all models have, and for each part that a model may have the rest of it.
 /// All of it is static but for the equations, which may be members: a model can look them up (kernels/models/mechanism_table.hpp).  Its parameters,
@@ -72,16 +80,16 @@ template <class Model, class Real> class ModelParts {
     }, "derivative<Full>(t, state, parameters, memory, rates, report): Faults; it fills the report if Full");
 
     // Of contacts.
-    static_assert(!(HasImpacts<Model> || HasClocks<Model>) || Model::has_contacts, "has_impacts, or contacts that steps hold: has_contacts");
+    static_assert(!IsRigid<Model> || Model::has_contacts, "is_rigid: has_contacts");
     static_assert(requires(Memory<Real>& memory) { start_memory(memory); }, "start_memory(memory): what it holds before the first step");
     static_assert(!HasTimeStepping<Model> || requires { bool{Model::sees_contacts}; },
-                  "has_impacts: sees_contacts, whether see(t, state, parameters, memory, contact) tells what the watch asks for without the forces");
+                  "is_rigid: sees_contacts, whether see(t, state, parameters, memory, contact) tells what the watch asks for without the forces");
     static_assert(!Model::has_contacts || requires(Model const& m, Report<Real> const& report) { m.switches(); m.watching(true, true); report.contact; },
                   "has_contacts: the model says switches() and watching(locate_modes, neighbours), its report has a contact");
-    static_assert(!Model::has_contacts || HasImpacts<Model> || requires(Parameters<Real> const& p) { Model::touch_scale(p); },
+    static_assert(!Model::has_contacts || IsRigid<Model> || requires(Parameters<Real> const& p) { Model::touch_scale(p); },
                   "has_contacts: touch_scale(parameters), length that the watch's tolerance is relative to (kernels/steppers/contact_watch.hpp)");
-    static_assert(!HasImpacts<Model> || requires(Parameters<Real> const& p, Real end) { Model::located(p, end); },
-                  "has_impacts: located(parameters, end), depth up to which an event counts as found; settle(...), what follows where a step has ended "
+    static_assert(!IsRigid<Model> || requires(Parameters<Real> const& p, Real end) { Model::located(p, end); },
+                  "is_rigid: located(parameters, end), depth up to which an event counts as found; settle(...), what follows where a step has ended "
                   "(kernels/rigid), with shadows also of Tangents (kernels/lanes/saltation.hpp)");
     static_assert(!Model::has_linearisation || requires { typename Model::template Linearisation<Real>; },
                   "has_linearisation: Linearisation<Real> and linearise(...) serve the stiff method");

@@ -12,8 +12,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Source: J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988); M. Jean, The non-smooth contact dynamics method (1999).
 template <class Model, class Real> class MoreauJeanStep : public StepperTraits {
 public:
-    static constexpr bool adaptive = false;
     static constexpr bool has_impulses = true;
+    SLIDEWAY_HD static bool adapts(Pack<Model, Real> const&) { return false; }  // and so has no errors to tell
+    SLIDEWAY_FN static void errors(Attempt<Model, Real> const&, Real*) {}
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return 2; }        // in flight
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return 2; }  // per attempt
 
@@ -43,8 +44,6 @@ public:
         if (from.needs.ends) tell(report.contact, to.report.contact);
         if (from.needs.stages) pack.add_integrands(at_an_end, to.report);
     }
-
-    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
 
     /// The state inside the step, at fraction θ of it: straight lines to either side of its middle, where the impulses are.
     SLIDEWAY_FN void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {

@@ -31,11 +31,10 @@ template <class Model> struct NewMember {
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
         if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member);
-        if constexpr (HasClocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0, 0.0};
+        if constexpr (HasClocks<Model>) c.clocked = {0.0, c.h, 0.0, 0.0, 0.0};
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(r.contacts.memory);
-        if constexpr (HasEvents<Model>) c.resets = {-1.0, 0.0};
     }
 
 private:
@@ -50,7 +49,7 @@ private:
             }
             shadow.distance = plan.d0;
             shadow.growth = 0;
-            if constexpr (!HasImpacts<Model>) start_memory(shadow.contacts.memory);
+            if constexpr (!IsRigid<Model>) start_memory(shadow.contacts.memory);
         }
     }
 };

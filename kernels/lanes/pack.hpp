@@ -13,11 +13,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Of a stage in an integral over a step, and in the estimates of its error.
 struct StageWeights { double value, error, coarse_error = 0; };
 
-/// The lanes at work: their members' states, and the step that they attempt.
+/// The lanes at work: their members' states, and the integrals of the step that they attempt (which itself is PackStep).
 template <class Model, class Real> struct Pack {
     static constexpr int size = Model::size;
-    static constexpr int width = lanes<Real>;
-    using Parameters = typename Model::template Parameters<Real>;
     using Report = typename Model::template Report<Real>;
     using Observer = typename Model::template Observer<Real>;
 

@@ -26,15 +26,12 @@ template <class Stepper, class Model, class Real> struct PackStep {
         : pack(of_members), results(of_block), settings(of_method), neighbours(of_block.shadows()) {}
 
     /// Whether error control sets its length.
-    SLIDEWAY_HD bool adapts() const {
-        if constexpr (requires { Stepper::adapts(pack); }) return Stepper::adapts(pack);
-        else return Stepper::adaptive;
-    }
+    SLIDEWAY_HD bool adapts() const { return Stepper::adapts(pack); }
     SLIDEWAY_HD bool is_auto() const { return settings.method == Method::automatic; }
     /// The longest that it may be [s].
     SLIDEWAY_HD Real longest() const { return Real(Stepper::stiff ? settings.stiff_max_step : settings.max_step); }
 
-    SLIDEWAY_HD FineTime<Real> fine_time() const { return {pack.state.constants.end, Model::has_shadows && !HasImpacts<Model>}; }
+    SLIDEWAY_HD FineTime<Real> fine_time() const { return {pack.state.constants.end, Model::has_shadows && !IsRigid<Model>}; }
     /// Least step that moves time [s].
     SLIDEWAY_HD Real resolution() const { return fine_time().resolution(); }
     /// Least step that an event may cut [s].

@@ -10,8 +10,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// through a largest one and its neighbours tell the peak.
 template <class Stepper, class Model, class Real> struct PeakSearch {
     /// Steps whose inside is searched: of stiff ones fast motions are damped, impacts of rigid contacts have no duration.
-    static constexpr bool is_of_use = Model::has_contacts && (Pack<Model, Real>::Observer::peaks > 0) && !HasImpacts<Model> &&
-                                      !HasEvents<Model> && Stepper::adaptive && !Stepper::stiff;
+    static constexpr bool is_of_use = Model::has_contacts && (Pack<Model, Real>::Observer::peaks > 0) && !IsRigid<Model> &&
+                                      !HasEvents<Model> && !Stepper::has_impulses && !Stepper::stiff;
 
     /// @param to the attempt that has been accepted
     SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real> const& to, Mask<Real> accepted) {

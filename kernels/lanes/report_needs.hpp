@@ -34,11 +34,9 @@ struct ReportNeeds {
         needs.peaks = Observer::needs_peaks(quantities) || Accelerations::needs_peaks(quantities);
         needs.audit = Observer::audits(quantities);
         needs.powers_alone = needs.stages && !needs.accelerations && !Observer::integrates_more(quantities);
-        if constexpr (Model::has_contacts) {
-            needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
-            if (HasClocks<Model> && settings.method == Method::verner65) needs.watching = Watching::impacts;
-            needs.switches = model.switches();
-        }
+        needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
+        if (HasClocks<Model> && settings.method == Method::verner65) needs.watching = Watching::clocks;
+        needs.switches = model.switches();
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();
         return needs;
     }
@@ -47,7 +45,7 @@ struct ReportNeeds {
     template <class Model> SLIDEWAY_HD ReportNeeds of_shadows() const {
         ReportNeeds needs;
         needs.watching = watching;
-        needs.ends = cuts() && !HasImpacts<Model>;
+        needs.ends = cuts() && !IsRigid<Model>;
         return needs;
     }
 };

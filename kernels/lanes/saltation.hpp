@@ -39,7 +39,7 @@ public:
         lift(before.memory, memory_);
         for (int i = 0; i < size; ++i) flow_[i] = before.rates[i];
         along_ = contact_along(flow_, Real(1.0));
-        if constexpr (has_slips) look_before_stops(p);
+        look_before_stops(p);
     }
 
     /// How a shadow is carried.
@@ -65,7 +65,7 @@ public:
         auto memory = memory_;
         Number const t(before_.t, carried.delay);
         model_.settle(in_, t, Number(before_.end), y, p_, memory, contact);
-        if constexpr (has_slips) model_.keep_offset(in_, t, y, p_, memory);
+        model_.keep_offset(in_, t, y, p_, memory);
         for (int i = 0; i < size; ++i) offset[i] = y[i].slope;
         return carried;
     }
@@ -99,7 +99,7 @@ private:
 
     /// Where a slip has come to rest friction may already have changed its sign, and the derivative before is that of a moment ago.
     SLIDEWAY_NOINLINE void look_before_stops(Parameters const& p) {
-        Real const since = model_.since_slip(before_.contact, along_, p);
+        Real const since(model_.since_slip(before_.contact, along_, p));
         auto const earlier = in_ & (since > Real(0.0));
         if (none(earlier) || at_start_) return;
         Real y[size], rates[2][size];

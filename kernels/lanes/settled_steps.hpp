@@ -41,7 +41,7 @@ public:
         if (!Base::may_cut(step)) return mask_of<Real>(false);
         auto const& constants = step.pack.state.constants;
         Real const located = Model::located(constants.parameters, constants.end);
-        Real fraction = Base::first_event(step, allowed.accepted, located);
+        Real fraction = Base::first_event(step, Base::are_long(step, allowed.accepted), located);
         auto cut = fraction < Real(1.0);
         if constexpr (Stepper::ends_early) {
             ended_early_ = cut & knows_inside(step, fraction) & (step.attempt.step * fraction > step.least_cut());

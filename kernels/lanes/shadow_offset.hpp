@@ -41,7 +41,7 @@ template <class Model, class Real> struct ShadowOffset {
     /// What rounding makes of an offset.  The numbers of a member with rigid contacts may be far longer than what they are measured in.
     SLIDEWAY_HD static Real rounding(Pack<Model, Real> const& pack) {
         Real least(least_distance);
-        if constexpr (HasImpacts<Model>) {
+        if constexpr (IsRigid<Model>) {
             auto const& s = pack.state;
             for (int i = 0; i < size; ++i) {
                 if ((pack.model.prescribed() >> i & 1u) != 0) continue;

@@ -25,7 +25,7 @@ public:
     static constexpr int size = Model::size;
     using Shadow = typename MemberState<Model, Real>::Shadow;
     using Memory = typename Model::template Memory<Real>;
-    static constexpr bool have_events = Model::has_contacts && !HasImpacts<Model>;  // of their own
+    static constexpr bool have_events = Model::has_contacts && !IsRigid<Model>;  // of their own
 
     /// Depth [clearances] up to which an event counts as located.  The offset's part in the positions is some 1e-5 of its length, for in
     /// an impact it is nearly all velocity; this is to be little of that, and rounding is 1e-16.
@@ -74,12 +74,9 @@ public:
 
     /// Least fraction of the step at which the member or a shadow has an event that ends it.
     SLIDEWAY_HD Real first_event(Pack<Model, Real> const& pack, Mask<Real> candidates, Real located_depth, Real fraction) const {
-        if constexpr (have_events) {
-            for (int s = 0; s < plan_.count; ++s) {
-                auto const& watch = pack.state.shadows[s].contacts.watch;
-                fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, ends_[s].step,
-                                                        located_depth, pack.needs.watching));
-            }
+        for (int s = 0; s < plan_.count; ++s) {
+            auto const& watch = pack.state.shadows[s].contacts.watch;
+            fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, ends_[s].step, located_depth, pack.needs.watching));
         }
         return fraction;
     }
@@ -155,7 +152,7 @@ public:
     SLIDEWAY_NOINLINE void stop(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at) {
         // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
         bool const speeds = pack.needs.cuts() && pack.needs.watching != Watching::modes;
-        constexpr int width = HasImpacts<Model> ? size : size + Memory::speeds;
+        constexpr int width = IsRigid<Model> ? size : size + Memory::speeds;
         speeds ? rescale_numbers<width>(pack, at) : rescale_numbers<size>(pack, at);
         results.take_growth(pack, at);
     }
@@ -185,7 +182,7 @@ private:
             Offset::template write<width>(pack, found.moved, w[s], d0, shadow);
             refresh(pack, shadow, found.moved);
         }
-        if constexpr (HasImpacts<Model>) {
+        if constexpr (IsRigid<Model>) {
             if (any(lost)) hold(pack, lost);
         }
     }
@@ -214,7 +211,7 @@ private:
 
     /// What the contacts have left behind that hold it.
     SLIDEWAY_FN static Memory const& memory_of(Pack<Model, Real> const& pack, [[maybe_unused]] Shadow const& shadow) {
-        if constexpr (HasImpacts<Model>)
+        if constexpr (IsRigid<Model>)
             return pack.state.contacts.memory;
         else
             return shadow.contacts.memory;
@@ -238,7 +235,7 @@ private:
     SLIDEWAY_HD Faults<Real> evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         Real rates[size];
         auto const faults = pack.evaluate(pack.state.course.t, shadow.y, memory_of(pack, shadow), rates,
-                                          pack.needs.cuts() && !HasImpacts<Model>, report_);
+                                          pack.needs.cuts() && !IsRigid<Model>, report_);
         pack.count_evaluations(in, 1);
         for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
         return faults.within(in);
@@ -252,7 +249,7 @@ private:
 
     ShadowPlan const plan_;
     Attempt<Model, Real> ends_[most_shadows];
-    [[no_unique_address]] PartIf<HasImpacts<Model>, Carried[most_shadows]> carried_;
+    [[no_unique_address]] PartIf<IsRigid<Model>, Carried[most_shadows]> carried_;
     typename Model::template Report<Real> report_;
     Real squared_norm_;
     Faults<Real> faults_;

@@ -66,8 +66,6 @@ public:
         for (int i = 0; i < size; ++i) lasting[i] = select(abs(lasting_error_[i]) < abs(whole[i]), lasting_error_[i], whole[i]);
     }
 
-    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
-
     /// The state inside the step: the straight line, for the derivatives at its ends belong to fast motions that the method
     /// damps.  Steps end where samples are wanted.
     SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {

@@ -4,7 +4,7 @@
 
 #include "kernels/lanes/crossing_search.hpp"
 #include "kernels/lanes/free_steps.hpp"
-#include "kernels/lanes/impact_steps.hpp"
+#include "kernels/lanes/clocked_steps.hpp"
 #include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/pack_step.hpp"
 #include "kernels/lanes/peak_search.hpp"
@@ -19,9 +19,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The class that says how contacts limit the steps of a model by a stepper.
 template <class Stepper, class Model, class Real>
 using ContactSteps = std::conditional_t<
-    Stepper::by_clock, ImpactSteps<Stepper, Model, Real>,
+    Stepper::by_clock, ClockedSteps<Stepper, Model, Real>,
     std::conditional_t<!Model::has_contacts || Stepper::has_impulses, FreeSteps<Stepper, Model, Real>,
-                       std::conditional_t<HasImpacts<Model>, SettledSteps<Stepper, Model, Real>, TouchSteps<Stepper, Model, Real>>>>;
+                       std::conditional_t<IsRigid<Model>, SettledSteps<Stepper, Model, Real>, TouchSteps<Stepper, Model, Real>>>>;
 
 /// A model without events of its own.  One that states `events` brings what finds them (tests/models/event_search.hpp).
 template <class Model, class Real> struct Uneventful {
@@ -140,8 +140,7 @@ private:
 
     SLIDEWAY_HD Allowance<Real> allowed_by_error(Mask<Real>& divergent) {
         auto& c = step_.pack.state.course;
-        Real squared_norm(0.0);
-        if constexpr (Stepper::adaptive) squared_norm = step_.squared_error(step_.pack.start(), step_.attempt);
+        Real squared_norm = step_.squared_error(step_.pack.start(), step_.attempt);
         squared_norm = step_.neighbours.larger_norm_than(squared_norm);
         Mask<Real> const accepted = step_.pack.busy & (squared_norm <= Real(1.0));
         step_.squared_norm = squared_norm;
@@ -196,7 +195,7 @@ private:
         auto& pack = step_.pack;
         auto& attempt = step_.attempt;
         if (!pack.needs.quantities) return;
-        if constexpr (Stepper::has_impulses) pack.state.observation.observer.take_impulses(accepted, attempt.report);
+        if (Stepper::has_impulses) pack.state.observation.observer.take_impulses(accepted, attempt.report);
         if constexpr (PeakSearch<Stepper, Model, Real>::is_of_use) {
             if (pack.needs.peaks && step_.adapts()) PeakSearch<Stepper, Model, Real>::run(pack, step_.stepper, attempt, accepted);
         }

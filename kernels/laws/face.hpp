@@ -18,6 +18,13 @@ template <int index, class Quad> SLIDEWAY_FN auto& at(Quad& q) {
     else return q.d;
 }
 
+/// Has a function see the four values of quads, one of each at a time.
+template <class See, class... Quads> SLIDEWAY_FN void each_of_four(See const& see, Quads const&... q) {
+    see(q.a...), see(q.b...), see(q.c...), see(q.d...);
+}
+template <class Real> SLIDEWAY_FN Quad<Real> select(Mask<Real> m, Quad<Real> const& yes, Quad<Real> const& no) {
+    return {select(m, yes.a, no.a), select(m, yes.b, no.b), select(m, yes.c, no.c), select(m, yes.d, no.d)};
+}
 template <class Real> SLIDEWAY_FN Real sum(Quad<Real> const& q) { return (q.a + q.b) + (q.c + q.d); }
 template <class Real> SLIDEWAY_FN Real largest(Quad<Real> const& q) { return max(max(q.a, q.b), max(q.c, q.d)); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/math/trigonometry.hpp"
+#include "kernels/math/vec3.hpp"
 #include "kernels/mechanisms/planar_parameters.hpp"
 #include "kernels/mechanisms/planar_report.hpp"
 #include "kernels/real.hpp"
@@ -64,19 +65,23 @@ template <class Real> struct PlanarLinks {
         vy = fma(x1, w1, x2 * w2);
     }
 
+    /// Of the slider's centre.
+    SLIDEWAY_FN Vec3<Real> centre_acceleration(PlanarLinkMotion<Real> const& m) const {
+        return {negated(fma(x1, w1 * w1, fma(y1, m.a1, fma(x2, w2 * w2, y2 * m.a2)))),
+                fma(x1, m.a1, fma(x2, m.a2, negated(fma(y1, w1 * w1, y2 * (w2 * w2))))), Real(0.0)};
+    }
+
     template <class Report>
     SLIDEWAY_FN void tell(PlanarLinkMotion<Real> const& motion, Real w3, PlanarParameters<Real> const& p, bool free_crank,
                           Report& report) const {
         Real const zero(0.0), half(0.5);
-        Real const &a1 = motion.a1, &a2 = motion.a2;
         report.x = x1 + x2;
         report.y = y;
         report.vx = vx;
         report.vy = vy;
-        report.acceleration = {negated(fma(x1, w1 * w1, fma(y1, a1, fma(x2, w2 * w2, y2 * a2)))),
-                               fma(x1, a1, fma(x2, a2, negated(fma(y1, w1 * w1, y2 * (w2 * w2))))), zero};
+        report.acceleration = centre_acceleration(motion);
         report.top = report.front = zero;  // sensors that it has not
-        Real const drive = free_crank ? zero : fms(motion.m12, a2, motion.r1);
+        Real const drive = free_crank ? zero : fms(motion.m12, motion.a2, motion.r1);
         report.crank_torque = report.drive_torque = drive;  // the crank's weight is in the equations
         report.crank_power = drive * w1;
         Real const kinetic = half * fma(p.m11 * w1, w1, fma(p.m22 * w2, w2, p.slider_inertia * w3 * w3));

@@ -9,7 +9,6 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// What lanes ask of the conditions of a block.
-/// @tparam Derived has `block`, its Conditions, and `neighbours`, whether members have some beside them
 template <class Laws> struct ConditionsOfBlock : ModelDefaults {
     Conditions<Laws> block;
 
@@ -17,7 +16,7 @@ template <class Laws> struct ConditionsOfBlock : ModelDefaults {
     SLIDEWAY_HD bool remembers() const { return block.remembers; }
     SLIDEWAY_HD void hold_contacts(Watching watching) {
         block.holds_contacts = holds_contacts(watching);
-        block.in_impacts = watching == Watching::impacts;
+        block.by_clocks = watching == Watching::clocks;
     }
     SLIDEWAY_HD void tell_stages(bool /*inside*/, bool powers_alone) { block.powers_alone = powers_alone; }
     /// At which events of the contacts steps end.  @param neighbours members have some beside them
@@ -74,7 +73,8 @@ template <class Mechanism, class Base, class Laws> struct MechanismModel : Mecha
                                Linearisation& out) const {
         Mechanism::linearise(t, state, p, memory, this->block, out);
     }
-    template <class Real> SLIDEWAY_FN Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const {
+    template <class Real> SLIDEWAY_FN Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory) const {
+        if (this->block.by_clocks) return HeldFace<Real>::pattern(memory);
         return Mechanism::contact_pattern(t, state, p, this->block.misaligned_way);
     }
     /// Acceleration of the equilibrium that steps of the stiff method are to follow, of each component of the state that is a place; 0 of others.

@@ -74,7 +74,8 @@ struct MechanismTable : Base, SignalLanes<Base, Signals>, ConditionsOfBlock<LawF
                    Linearisation& out) const {
         functions.linearise(t, state, p, memory, this->block, out);
     }
-    Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const {
+    Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory) const {
+        if (this->block.by_clocks) return HeldFace<Real>::pattern(memory);
         return functions.contact_pattern(t, state, p, this->block.misaligned_way);
     }
     void bend(Real t, Real step, Real const* state, Parameters<Real> const& p, Real* of_state) const {

@@ -136,6 +136,8 @@ public:
         take_peaks(fresh, r, state);
     }
 
+    /// What the impulses of a step make, where steps have some (RigidObserver).
+    SLIDEWAY_FN static void take_impulses(Mask<Real>, Report_<Real> const&) {}
     /// One accepted step of the lanes in the mask.  @param integral Σ b_s · integrand of the step's stages.
     SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, Report const& r, Real const* state,
                             bool switches) {

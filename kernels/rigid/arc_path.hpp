@@ -27,8 +27,8 @@ public:
             auto const lost = in & ((!sound) | ((!on_path) & (corrections_ >= Real(most_corrections))));
             on_path = on_path & in & !lost;
             this->factor(local_);
-            solve_for_residual();
-            solve_for_parameter();
+            solve_for(wanted_, true);
+            solve_for(along_tau_, false);
             go_back(lost);
             auto const corrects = in & (!on_path) & !lost;
             auto const arrives = correct(corrects);
@@ -109,26 +109,16 @@ private:
         return sound & (missed == missed);
     }
 
-    /// Changes that lead to the loads which are asked for, and those by a unit of τ.
-    SLIDEWAY_HD void solve_for_residual() {
+    /// Changes that lead to loads, those which are asked for or those by a unit of τ, in whose place they come.
+    SLIDEWAY_HD void solve_for(Change (&change)[pair_count], bool asked) {
         for (int k = 0; k < count_; ++k) {
             auto& l = local_[k];
-            l.c_n = wanted_[k].load[0] - rows_[k].normal;
+            auto const& row = rows_[k];
+            auto const& load = change[k].load;
+            l.c_n = asked ? load[0] - row.normal : load[0];
             if (!this->friction_) continue;
-            for (int i = 0; i < 2; ++i) l.c_t[i] = fnma(l.h[i], l.c_n, wanted_[k].load[1 + i] - rows_[k].along[i]);
+            for (int i = 0; i < 2; ++i) l.c_t[i] = asked ? fnma(l.h[i], l.c_n, load[1 + i] - row.along[i]) : load[1 + i];
         }
-        take_step(wanted_);
-    }
-    SLIDEWAY_HD void solve_for_parameter() {
-        for (int k = 0; k < count_; ++k) {
-            auto& l = local_[k];
-            l.c_n = along_tau_[k].load[0];
-            if (!this->friction_) continue;
-            for (int i = 0; i < 2; ++i) l.c_t[i] = along_tau_[k].load[1 + i];
-        }
-        take_step(along_tau_);
-    }
-    SLIDEWAY_HD void take_step(Change (&change)[pair_count]) {
         this->step(local_);
         for (int k = 0; k < count_; ++k) {
             auto const& c = course_[k];
@@ -165,13 +155,11 @@ private:
         Real off = abs(by) + (by - by);
         for (int k = 0; k < count_; ++k) {
             auto const& row = rows_[k];
-            auto const relative = [&](Real change, Real width) { off = max(off, select(row.here, abs(change) / width, Real(0.0))); };
-            relative(fma(by, fma(shift_[0][k], left, along_tau_[k].rate), wanted_[k].rate), slack_[k]);
+            auto const relative = [&](Mask<Real> counts, Real change, Real width) { off = max(off, select(counts, abs(change) / width, Real(0.0))); };
+            relative(row.here, fma(by, fma(shift_[0][k], left, along_tau_[k].rate), wanted_[k].rate), slack_[k]);
             if (!this->friction_) continue;
-            for (int i = 0; i < 2; ++i) {
-                Real const slips = fma(by, fma(shift_[1 + i][k], left, along_tau_[k].slip[i]), wanted_[k].slip[i]);
-                off = max(off, select(row.here & (row.coefficient > Real(0.0)), abs(slips) / widths_[k], Real(0.0)));
-            }
+            auto const holds = row.here & (row.coefficient > Real(0.0));
+            for (int i = 0; i < 2; ++i) relative(holds, fma(by, fma(shift_[1 + i][k], left, along_tau_[k].slip[i]), wanted_[k].slip[i]), widths_[k]);
         }
         add(in, Real(1.0), wanted_);
         add(in, by, along_tau_);

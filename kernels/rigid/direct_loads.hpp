@@ -66,19 +66,16 @@ private:
     SLIDEWAY_HD void fill() {
         Real const zero(0.0), one(1.0);
         for (int i = 0; i < count_; ++i) {
-            fourth_[i] = mask_of<Real>(false);
+            fourth_[i] = ends_whole_face(rows_, i);
             for (int j = 0; j < count_; ++j) {
                 auto const both = rows_[i].here & rows_[j].here;
                 w_[i][j] = select(both, dot(rows_[i].pair.normal, rows_[j].pushed), i == j ? one : zero);
             }
         }
         for (int i = 3; i < count_; ++i) {
-            // Rows are in order: the fourth of a face follows upon its first three.
-            int const first = i - 3;
-            if (rows_[i].number % 4 != 3 || rows_[first].number != rows_[i].number - 3) continue;
-            fourth_[i] = (rows_[first].here & rows_[first + 1].here) & (rows_[first + 2].here & rows_[i].here);
+            if (none(fourth_[i])) continue;
             for (int j = 0; j < count_; ++j) {
-                Real const sign(j < first || j > i ? 0.0 : (j - first) % 2 == 0 ? 1.0 : -1.0);
+                Real const sign(j < i - 3 || j > i ? 0.0 : (j - i) % 2 == 0 ? -1.0 : 1.0);
                 w_[i][j] = select(fourth_[i], sign, w_[i][j]);
             }
         }

@@ -3,6 +3,7 @@
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
 #include "kernels/rigid/pair_solver.hpp"
+#include "kernels/rigid/rigid_memory.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -18,14 +19,10 @@ public:
     PairSolver<Real> pairs;  // `before` and `after` are velocities, `normal` and `along` impulses
 
     /// @param coefficient μ, or nullptr without friction  @param least_speed of a pair that is not at rest [m/s]
+    /// @param arrival velocity at which pairs come nearer, if it is another than impulses change
     SLIDEWAY_HD JointImpact(Pairs const& all, Twist<Real> const& velocity, Mask<Real> const (&near)[pair_count], Real const* coefficient,
-                            Real least_speed)
-        : JointImpact(all, velocity, velocity, near, coefficient, least_speed) {}
-
-    /// In which pairs come nearer at another velocity than impulses change: `arrival`.
-    SLIDEWAY_HD JointImpact(Pairs const& all, Twist<Real> const& velocity, Twist<Real> const& arrival, Mask<Real> const (&near)[pair_count],
-                            Real const* coefficient, Real least_speed)
-        : pairs(all, velocity), all_(all), arrival_(arrival), friction_(coefficient != nullptr) {
+                            Real least_speed, Twist<Real> const* arrival = nullptr)
+        : pairs(all, velocity), all_(all), arrival_(arrival != nullptr ? *arrival : velocity), friction_(coefficient != nullptr) {
         Real const zero(0.0), rounding(2.220446049250313e-16);
         Real size = zero, slip = zero;
         for (int i = 0; i < pair_count; ++i) {
@@ -43,15 +40,35 @@ public:
         bearable_ = max(max(Real(bearable) * size, Real(16.0) * rounding * slip), Real(resolved) * least_speed);
     }
 
-    /// @param restitution of each pair  @return energy that it makes [J], ≤ 0 but for rounding
-    SLIDEWAY_HD Real solve(Mask<Real> in, Real const (&restitution)[pair_count]) {
+    /// @param restitution of each pair: only as much of it as makes no energy is left
+    SLIDEWAY_HD void solve(Mask<Real> in, Real const (&restitution)[pair_count]) {
+        find(in, restitution);
+        auto const less = in & ((energy_made() > Real(1e-12) * energy_moved()) | pairs.failed);
+        if (friction_ && any(less)) limit_energy(less);
+    }
+
+    /// What the impulses come to.
+    SLIDEWAY_HD ImpactBooks<Real> books() const {
+        auto books = ImpactBooks<Real>::none();
+        books.work = all_.centre.impulse_work(pairs.load().linear, (pairs.after - pairs.before).linear);
+        auto const mean = Real(0.5) * (arrival_ + pairs.after);
+        for (int k = 0; k < pairs.count(); ++k) {
+            auto const& row = pairs.row(k);
+            books.damping = fnma(dot(row.pair.normal, mean), row.normal, books.damping);
+            books.friction = fnma(dot(row.pair.slip[0], mean), row.along[0], fnma(dot(row.pair.slip[1], mean), row.along[1], books.friction));
+            books.impulse = books.impulse + row.normal;
+        }
+        return books;
+    }
+
+private:
+    SLIDEWAY_HD void find(Mask<Real> in, Real const (&restitution)[pair_count]) {
         for (int k = 0; k < pairs.count(); ++k) {
             auto& row = pairs.row(k);
             row.target = negated(restitution[row.number]) * min(dot(row.pair.normal, arrival_), Real(0.0));
             row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
         pairs.solve(in, enough_, bearable_, friction_, false);
-        return energy_made();
     }
 
     /// Takes as much from the impulses as it needs for them to make no energy: the largest κ ≤ 1 of Λ₀ + κ (Λ − Λ₀), Λ₀ being those without restitution
@@ -65,7 +82,7 @@ public:
         }
         auto const full = pairs.after;
         auto const had_failed = pairs.failed;
-        solve(in, no_restitution);
+        find(in, no_restitution);
         pairs.failed = pairs.failed & in;
         // E(κ) = a κ² + b κ + c of the impulses P₀ + κ ΔP: a = ½ Δu·ΔP, b = u₀·ΔP, c = E(0), u₀ the velocity after P₀.
         auto const dead = pairs.load();
@@ -99,22 +116,6 @@ public:
         return sum;
     }
 
-    /// What friction takes, what restitution takes [J], and the sum of the normal impulses [N s].
-    struct Taken { Real friction, damping, impulse; };
-    SLIDEWAY_HD Taken taken() const {
-        Real const zero(0.0), half(0.5);
-        Taken t{zero, zero, zero};
-        auto const mean = half * (arrival_ + pairs.after);
-        for (int k = 0; k < pairs.count(); ++k) {
-            auto const& row = pairs.row(k);
-            t.damping = fnma(dot(row.pair.normal, mean), row.normal, t.damping);
-            t.friction = fnma(dot(row.pair.slip[0], mean), row.along[0], fnma(dot(row.pair.slip[1], mean), row.along[1], t.friction));
-            t.impulse = t.impulse + row.normal;
-        }
-        return t;
-    }
-
-private:
     SLIDEWAY_FN Real approach(TouchingPair<Real> const& row) const { return dot(row.pair.normal, pairs.before); }
     SLIDEWAY_FN static Real& impulse_of(TouchingPair<Real>& row, int j) { return j == 0 ? row.normal : row.along[j - 1]; }
 

@@ -3,8 +3,7 @@
 #include "kernels/math/tangent.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
-#include "kernels/rigid/pair_solver.hpp"
-#include "kernels/rigid/rigid_memory.hpp"
+#include "kernels/rigid/lasting_forces.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -15,15 +14,8 @@ public:
     using Number = Tangent<Real>;
     using Memory = RigidJointMemory<Number>;
 
-    SLIDEWAY_FN JointOffset(Mask<Real> in, Memory const& memory, SliderParameters<Number> const& p, bool friction) : p_(p), friction_(friction) {
-        Number const half(0.5);
-        any_ = mask_of<Real>(false);
-        for (int i = 0; i < pair_count; ++i) {
-            held_[i] = in & (number_of(memory.held, i) > half);
-            sticks_[i] = held_[i] & (number_of(memory.sticks, i) > half);
-            any_ = any_ | held_[i];
-        }
-    }
+    SLIDEWAY_FN JointOffset(Mask<Real> in, Memory const& memory, SliderParameters<Number> const& p, bool friction)
+        : p_(p), friction_(friction), last_(LastingPairs<Number>::of(in, memory)), any_(last_.any()) {}
 
     /// Lanes with pairs that last.
     SLIDEWAY_FN Mask<Real> any() const { return any_; }
@@ -39,18 +31,19 @@ private:
     SLIDEWAY_HD Twist<Number> rest(JointPairs<Number> const& at, Twist<Number> const& motion, Number const* coefficient) const {
         PairSolver<Number> pairs(at, motion);
         for (int i = 0; i < pair_count; ++i) {
-            if (none(held_[i])) continue;
+            if (none(last_.held[i])) continue;
             auto& row = pairs.add(i);
             at.put_pair(i, row.pair);
-            row.start(held_[i], Number(0.0));
+            row.start(last_.held[i], Number(0.0));
         }
-        pairs.rest(any_, held_, sticks_, coefficient);
+        pairs.rest(any_, last_.held, last_.sticks, coefficient);
         return pairs.after;
     }
 
     SliderParameters<Number> const& p_;
     bool const friction_;
-    Mask<Real> held_[pair_count], sticks_[pair_count], any_;
+    LastingPairs<Number> const last_;
+    Mask<Real> const any_;
 };
 
 template <class Real> SLIDEWAY_HD void JointOffset<Real>::keep_place(JointPairs<Number> const& at, Number* s) const {

@@ -42,8 +42,11 @@ public:
             if (friction) {
                 Real const first = number_of(contact.slip[0], i), second = number_of(contact.slip[1], i);
                 Real const square = fma(first, first, second * second);
-                touches = touches | stops(held > half, square, number_of(memory.sticks, i));
-                changed = changed | slips(in & (held > half), square, number_of(memory.sticks, i));
+                Real& sticks = number_of(memory.sticks, i);
+                touches = touches | ((held > half) & (sticks <= half) & (square <= Real(slip_stops * slip_stops)));
+                auto const slips = in & (held > half) & (sticks > half) & (square >= Real(slip_again * slip_again));
+                sticks = select(slips, zero, sticks);
+                changed = changed | slips;
             }
             speeds = speeds + rate;
         }
@@ -55,21 +58,20 @@ public:
     /// The event.  @param velocity of the slider, before and after
     SLIDEWAY_HD void run(Mask<Real> event, Real t, Twist<Real>& velocity, Memory& memory, RigidJointContact<Real> const& contact,
                          Real least_speed) {
-        Real const zero(0.0), one(1.0), half(0.5);
-        Mask<Real> near[pair_count], held[pair_count];
-        for (int i = 0; i < pair_count; ++i) {
-            held[i] = event & (number_of(memory.held, i) > half);
-            near[i] = held[i] | (event & (number_of(contact.penetration, i) > Real(-4.0) * located_));
-        }
-        count_events(event, t, memory);
+        Real const zero(0.0), one(1.0);
+        auto const* const coefficient = friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr;
+        auto const last = LastingPairs<Real>::of(event, memory);
+        auto const& held = last.held;
+        Mask<Real> near[pair_count];
+        for (int i = 0; i < pair_count; ++i) near[i] = held[i] | (event & (number_of(contact.penetration, i) > Real(-4.0) * located_));
+        memory.quick = select(event, select(t - memory.last <= Real(quick_time), memory.quick + one, zero), memory.quick);
+        memory.count_event(event, t, end_);
         Mask<Real> const endless = memory.quick >= Real(most_quick_events), at_once = endless | (memory.at_once >= Real(most_with_restitution));
         Real restitution[pair_count];
         for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
-        JointImpact<Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed);
-        Real const made = impact.solve(event, restitution);
+        JointImpact<Real> impact(pairs_, velocity, near, coefficient, least_speed);
+        impact.solve(event, restitution);
         auto& pairs = impact.pairs;
-        auto const less = event & ((made > Real(1e-12) * impact.energy_moved()) | pairs.failed);
-        if (friction_ != nullptr && any(less)) impact.limit_energy(less);
         memory.jammed = select(event & pairs.failed, one, memory.jammed);
         Mask<Real> rests[pair_count];
         for (auto& rest : rests) rest = mask_of<Real>(false);
@@ -87,33 +89,15 @@ public:
         complete_faces(event, contact, rests);
         Mask<Real> still[pair_count];
         find_still(pairs, rests, met, still);
-        pairs.rest(event, rests, still, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr);
-        auto const taken = impact.taken();
-        auto& books = memory.books;
-        auto const book = [&](Real& account, Real amount) { account = select(event, amount, account); };
-        book(books.work, pairs_.centre.impulse_work(pairs.load().linear, (pairs.after - velocity).linear));
-        book(books.friction, taken.friction);
-        book(books.damping, taken.damping);
-        book(books.impulse, taken.impulse);
-        book(books.count, count<Real>(met));
-        book(books.met, pattern);
-        book(books.flight, flight);
+        pairs.rest(event, rests, still, coefficient);
+        auto books = impact.books();
+        books.count = count<Real>(met), books.met = pattern, books.flight = flight;
+        memory.books.take(event, books);
         keep(event, rests, still, memory);
         velocity = select(event, pairs.after, velocity);
     }
 
 private:
-    /// Whether a pair that is held comes to rest along its face.
-    SLIDEWAY_FN static Mask<Real> stops(Mask<Real> held, Real square, Real sticks) {
-        return held & (sticks <= Real(0.5)) & (square <= Real(slip_stops * slip_stops));
-    }
-    /// Whether one that sticks slips from here on.
-    SLIDEWAY_FN static Mask<Real> slips(Mask<Real> held, Real square, Real& sticks) {
-        auto const ends = held & (sticks > Real(0.5)) & (square >= Real(slip_again * slip_again));
-        sticks = select(ends, Real(0.0), sticks);
-        return ends;
-    }
-
     /// Which of the pairs that rest along their normals do so along their faces too.  In an impact the end of a slip sets others in motion, which is to be
     /// far below what bounces: there it has the least slip unit.
     SLIDEWAY_HD void find_still(PairSolver<Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> met,
@@ -182,16 +166,6 @@ private:
 
     /// Events at one time that still have restitution; those after them come to what one impact without it comes to.
     static constexpr double most_with_restitution = 4;
-
-    SLIDEWAY_HD void count_events(Mask<Real> event, Real t, Memory& memory) const {
-        Real const zero(0.0), one(1.0);
-        Real const since = t - memory.last;
-        auto const again = since <= no_time(end_), soon = since <= Real(quick_time);
-        memory.quick = select(event, select(soon, memory.quick + one, zero), memory.quick);
-        memory.at_once = select(event, select(again, memory.at_once + one, zero), memory.at_once);
-        memory.last = select(event, t, memory.last);
-        memory.jammed = select(event & (memory.at_once >= Real(most_events_at_once)), one, memory.jammed);
-    }
 
     Pairs const& pairs_;
     SliderParameters<Real> const& p_;

@@ -13,7 +13,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> class JointStepImpulse {
 public:
     /// @param h of the step [s]  @param change of the rates in it without impulses [m/s]  @param contact of the report in its middle
-    SLIDEWAY_HD JointStepImpulse(Real h, Real change, RigidJointContact<Real> const& contact, SliderParameters<Real> const& p) : p_(p) {
+    SLIDEWAY_HD JointStepImpulse(Real h, Real change, RigidJointContact<Real> const& contact, SliderParameters<Real> const& p) {
         Real const zero(0.0), height = Real(-0.5) * h * change;
         Mask<Real> const in = h > zero;
         touching_ = failed_ = mask_of<Real>(false);
@@ -41,49 +41,35 @@ public:
     SLIDEWAY_FN Mask<Real> touching() const { return touching_; }
 
     /// @param at in the middle of the step, with the velocity that it has without impulses  @param start velocity at its start
-    /// @param friction nullptr without  @return the velocity at its end
-    SLIDEWAY_HD Twist<Real> solve(JointPairs<Real> const& at, Twist<Real> const& start, Real restitution,
-                                  FrictionParameters<Real> const* friction) {
-        Real const least_speed = Real(slip_at_rest) * max(p_.length_scale_y, p_.length_scale_z) * p_.rate_scale;
-        JointImpact<Real> impact(at, at.velocity, start, near_, friction != nullptr ? &friction->kinetic_coefficient : nullptr,
-                                        least_speed);
+    /// @param coefficient μ, or nullptr without friction  @return the velocity at its end
+    SLIDEWAY_HD Twist<Real> solve(JointPairs<Real> const& at, Twist<Real> const& start, Real restitution, Real const* coefficient, Real least_speed) {
+        JointImpact<Real> impact(at, at.velocity, near_, coefficient, least_speed, &start);
         Real each[pair_count];
         for (auto& e : each) e = restitution;
-        Real const made = impact.solve(touching_, each);
+        impact.solve(touching_, each);
         auto& pairs = impact.pairs;
-        auto const less = touching_ & ((made > Real(1e-12) * impact.energy_moved()) | pairs.failed);
-        if (friction != nullptr && any(less)) impact.limit_energy(less);
         failed_ = failed_ | (touching_ & pairs.failed);
         for (int k = 0; k < pairs.count(); ++k) {
             auto const& row = pairs.row(k);
             Real& closed = number_of(closed_, row.number);
             closed = select(row.here & (row.normal > Real(0.0)), Real(1.0), closed);
         }
-        rest(pairs, least_speed, friction);
-        auto const taken = impact.taken();
-        books_.work = at.centre.impulse_work(pairs.load().linear, (pairs.after - at.velocity).linear);
-        books_.friction = taken.friction;
-        books_.damping = taken.damping;
-        books_.impulse = taken.impulse;
+        rest(pairs, least_speed, coefficient);
+        books_ = impact.books();
         return pairs.after;
     }
 
     /// Puts books and modes of the impulses into the contact.  @return lanes where there are none that satisfy the conditions
     SLIDEWAY_HD Mask<Real> tell(RigidJointContact<Real>& contact) const {
-        Real const zero(0.0);
-        auto const put = [&](Real& account, Real amount) { account = select(touching_, amount, zero); };
         contact.books = ImpactBooks<Real>::none();
-        put(contact.books.work, books_.work);
-        put(contact.books.friction, books_.friction);
-        put(contact.books.damping, books_.damping);
-        put(contact.books.impulse, books_.impulse);
+        contact.books.take(touching_, books_);
         contact.take_modes(closed_);
         return failed_;
     }
 
 private:
     /// Ends what the solver leaves of the motion of pairs that rest, and of the slip of those that stick: it would add up from step to step.
-    SLIDEWAY_HD void rest(PairSolver<Real>& pairs, Real least_speed, FrictionParameters<Real> const* friction) const {
+    SLIDEWAY_HD void rest(PairSolver<Real>& pairs, Real least_speed, Real const* coefficient) const {
         Mask<Real> rests[pair_count], still[pair_count];
         auto any_rests = mask_of<Real>(false);
         for (int i = 0; i < pair_count; ++i) rests[i] = still[i] = any_rests;
@@ -94,10 +80,9 @@ private:
             Real const hold = row.coefficient * row.normal, drag = fma(row.along[0], row.along[0], row.along[1] * row.along[1]);
             still[row.number] = rests[row.number] & (drag < Real(1 - 1e-9) * (hold * hold));
         }
-        if (any(any_rests)) pairs.rest(touching_ & any_rests, rests, still, friction != nullptr ? &friction->kinetic_coefficient : nullptr);
+        if (any(any_rests)) pairs.rest(touching_ & any_rests, rests, still, coefficient);
     }
 
-    SliderParameters<Real> const& p_;
     Mask<Real> near_[pair_count], touching_, failed_;
     Quad<Real> closed_[face_count];  // 1 where a pair pushes, or is no farther and no faster than the step makes it without impulses; else 0
     ImpactBooks<Real> books_ = ImpactBooks<Real>::none();

@@ -15,6 +15,16 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> struct LastingPairs {
     Mask<Real> held[pair_count], sticks[pair_count];
 
+    /// Those that a member remembers.
+    SLIDEWAY_FN static LastingPairs of(Mask<Real> in, RigidJointMemory<Real> const& memory) {
+        Real const half(0.5);
+        LastingPairs last;
+        for (int i = 0; i < pair_count; ++i) {
+            last.held[i] = in & (number_of(memory.held, i) > half);
+            last.sticks[i] = last.held[i] & (number_of(memory.sticks, i) > half);
+        }
+        return last;
+    }
     SLIDEWAY_FN Mask<Real> any() const {
         auto some = mask_of<Real>(false);
         for (auto const& each : held) some = some | each;
@@ -63,7 +73,7 @@ public:
             row.target = negated(fma(beta, fma(beta, gap, rate + rate), row.pair.bias));
             if (friction != nullptr) {
                 for (int j = 0; j < 2; ++j) slip[j][i] = dot(row.pair.slip[j], velocity);
-                drag(row, {slip[0][i], slip[1][i]}, last.held[i] & !last.sticks[i], *friction);
+                row.slide(last.held[i] & !last.sticks[i], friction->kinetic_coefficient, {slip[0][i], slip[1][i]});
                 sticking = sticking | sticks;
                 if (any(sticks)) hold(row, i, all, beta);
             }
@@ -95,15 +105,6 @@ private:
             normal_power = normal_power + push;
             friction_power = friction_power - (dot(load, velocity) - push);
         }
-    }
-
-    /// Of a pair that slips, friction per unit load.
-    SLIDEWAY_HD static void drag(TouchingPair<Real>& row, Real const (&slip)[2], Mask<Real> slips, FrictionParameters<Real> const& friction) {
-        Real const one(1.0);
-        Real const square = fma(slip[0], slip[0], slip[1] * slip[1]);
-        auto const moves = slips & (square > Real(0.0));
-        Real const share = select(moves, negated(friction.kinetic_coefficient) / sqrt(select(moves, square, one)), Real(0.0));
-        row.slide(slips, {share * slip[0], share * slip[1]});
     }
 
     /// Of one that sticks, what its slip is to come to.

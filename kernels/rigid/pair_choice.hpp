@@ -14,12 +14,21 @@ template <class Real> struct PairQuestion {
     Mask<Real> slips[2];   // already, and which way is known
     Real way[2];           // sign of its slip, if so
     Real kinetic, holding; // coefficients of friction of a contact that slips, and up to which one sticks
+
+    /// Of contacts that are to come to rest along their normals, whose slip is not known, and which have one coefficient of friction.
+    SLIDEWAY_FN static PairQuestion of(PairOf<Real> const& before, Mask<Real> front, Mask<Real> rear, Real coefficient) {
+        Real const zero(0.0);
+        auto const no = mask_of<Real>(false);
+        return {before, {zero, zero}, {front, rear}, {no, no}, {zero, zero}, coefficient, coefficient};
+    }
 };
 
 template <class Real> struct PairAnswer {
     ContactState<Real> state[2];
     PairOf<Real> force;
     Real violation;  // of the worst condition, in units of the question's motion; NaN where nothing is finite
+
+    SLIDEWAY_FN Mask<Real> fits(Real scale) const { return violation <= Real(most_violation) * scale; }
 };
 
 /// Answers it by trying all states of both contacts in a fixed order, the least violation of the conditions winning and of equal ones
@@ -32,8 +41,7 @@ public:
         auto const no = mask_of<Real>(false);
         for (auto& state : best_.state) state = {no, no, Real(0.0), Real(0.0)};
         best_.violation = Real(2e300);
-        auto const& b = question.before;
-        rounding_ = Real(most_violation) * ((abs(b.normal[0]) + abs(b.normal[1])) + (abs(b.along[0]) + abs(b.along[1])));
+        rounding_ = Real(most_violation) * question.before.size();
     }
 
     SLIDEWAY_HD PairAnswer<Real> answer(bool friction) {
@@ -102,15 +110,8 @@ private:
         }
         auto const better = violation < best_.violation;
         best_.violation = select(better, violation, best_.violation);
-        for (int i = 0; i < 2; ++i) {
-            auto& kept = best_.state[i];
-            kept.closed = (better & state[i].closed) | (negation(better) & kept.closed);
-            kept.sticks = (better & state[i].sticks) | (negation(better) & kept.sticks);
-            kept.way = select(better, state[i].way, kept.way);
-            kept.drag = select(better, state[i].drag, kept.drag);
-            best_.force.normal[i] = select(better, force.normal[i], best_.force.normal[i]);
-            best_.force.along[i] = select(better, force.along[i], best_.force.along[i]);
-        }
+        best_.force = select(better, force, best_.force);
+        for (int i = 0; i < 2; ++i) best_.state[i] = select(better, state[i], best_.state[i]);
     }
 
     ContactPair<Real> const& pair_;

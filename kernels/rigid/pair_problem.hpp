@@ -6,7 +6,15 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Of the two contacts that a block between two walls may have at once, one at its front and one at its rear: along the wall's normal,
 /// positive where the contact opens, and along the wall.  Velocities [m/s], accelerations [m/s²], forces [N] or impulses [N s].
-template <class Real> struct PairOf { Real normal[2], along[2]; };
+template <class Real> struct PairOf {
+    Real normal[2], along[2];
+
+    SLIDEWAY_FN Real size() const { return (abs(normal[0]) + abs(normal[1])) + (abs(along[0]) + abs(along[1])); }
+};
+template <class Real> SLIDEWAY_FN PairOf<Real> select(Mask<Real> m, PairOf<Real> const& yes, PairOf<Real> const& no) {
+    return {{select(m, yes.normal[0], no.normal[0]), select(m, yes.normal[1], no.normal[1])},
+            {select(m, yes.along[0], no.along[0]), select(m, yes.along[1], no.along[1])}};
+}
 
 /// What a contact does.  @tparam Real may be in many lanes, each with its own
 template <class Real> struct ContactState {
@@ -15,6 +23,10 @@ template <class Real> struct ContactState {
     Real way;           // sign of its slip, 0 where it sticks or is open
     Real drag;          // way times the coefficient of friction
 };
+template <class Real> SLIDEWAY_FN ContactState<Real> select(Mask<Real> m, ContactState<Real> const& yes, ContactState<Real> const& no) {
+    auto const of = [m](Mask<Real> a, Mask<Real> b) -> Mask<Real> { return (m & a) | (negation(m) & b); };
+    return {of(yes.closed, no.closed), of(yes.sticks, no.sticks), select(m, yes.way, no.way), select(m, yes.drag, no.drag)};
+}
 
 /// Two contacts of one rigid body: how each answers to forces in either.  With γ the velocities (or accelerations) of the contacts and Λ the
 /// impulses (forces), γ_after = γ_before + G Λ, and G is what is stored here.  (M13.2)

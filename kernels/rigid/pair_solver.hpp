@@ -78,9 +78,8 @@ public:
     SLIDEWAY_HD Real unevenness(Real size) const {
         Real most(0.0);
         for (int i = 3; i < count_; ++i) {
-            if (rows_[i].number % 4 != 3 || rows_[i - 3].number != rows_[i].number - 3) continue;
-            auto const whole = (rows_[i - 3].here & rows_[i - 2].here) & (rows_[i - 1].here & rows_[i].here);
-            most = max(most, select(whole, abs((lack(i - 3) - lack(i - 2)) + (lack(i - 1) - lack(i))), Real(0.0)));
+            auto const whole = ends_whole_face(rows_, i);
+            if (any(whole)) most = max(most, select(whole, abs((lack(i - 3) - lack(i - 2)) + (lack(i - 1) - lack(i))), Real(0.0)));
         }
         return select(most <= Real(1e-9) * size, most, Real(0.0));
     }

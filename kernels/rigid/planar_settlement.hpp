@@ -58,7 +58,8 @@ public:
         if (free_crank_) s[3] = select(changed, links.w1, s[3]);
         s[4] = select(changed, links.w2, s[4]);
         s[5] = select(changed, spin_, s[5]);
-        book(changed, memory);
+        books_.met = met_corners();
+        memory.books.take(changed, books_);
         return changed;
     }
 
@@ -96,19 +97,16 @@ private:
         Real const zero(0.0);
         auto const before = stance_->motion(links_->vx, links_->vy, spin_);
         PairQuestion<Real> question = question_of(before, event);
-        question.holding = question.kinetic;
         for (int i = 0; i < 2; ++i) {
             question.present[i] = question.present[i] & (was_held_[i] | (before.normal[i] < zero));
             Real const e = select(was_held_[i], zero, p_.restitution);
             question.target[i] = negated(e) * min(before.normal[i], zero);
         }
         auto answer = PairChoice<Real>(stance_->pair, question).answer(friction_);
-        Real const speed = sum_of(before);
-        violated(event, answer, speed);
+        jammed_ = jammed_ | (event & !answer.fits(before.size()));
         if (friction_) {
-            Real const scale = energy_moved(before, answer.force);
             Real const gain = energy_made(before, stance_->pair.after(before, answer.force), answer.force);
-            auto const gains = event & (gain > Real(1e-12) * scale);
+            auto const gains = event & (gain > Real(1e-12) * energy_moved(before, answer.force));
             if (any(gains)) {
                 question.target[0] = question.target[1] = zero;
                 auto const dead = PairChoice<Real>(stance_->pair, question).answer(friction_);
@@ -165,25 +163,18 @@ private:
             time[i] = twice / select(ends, braking, one);
             may_last[i] = event & near_[i] & (was_held_[i] | ends);
         }
-        auto const no = mask_of<Real>(false);
-        PairAnswer<Real> answer;
-        for (int i = 0; i < 2; ++i) {
-            answer.state[i] = {no, no, zero, zero};
-            answer.force.normal[i] = answer.force.along[i] = zero;
-        }
+        PairAnswer<Real> answer{};
         if (any(may_last[0] | may_last[1])) answer = lasting(event, motion, {near_[0], near_[1]});
         for (int i = 0; i < 2; ++i) {
             // One that lasted goes on only where the impact has not thrown it off.
             Real const bearing = answer.force.normal[i] * stance_->pair.nn[i][i];
             auto const stays = (!was_held_[i]) | (motion.normal[i] + motion.normal[i] <= Real(chatter_time) * bearing);
-            auto const ends = answer.state[i].closed & (answer.force.normal[i] > zero) & may_last[i] & stays;
+            Mask<Real> const ends = answer.state[i].closed & (answer.force.normal[i] > zero) & may_last[i] & stays;
             auto const bounces = ends & !was_held_[i];
             books_.flight = max(books_.flight, select(bounces, time[i], zero));
-            auto& kept = state[i];
-            kept.closed = (event & ends) | (negation(event) & kept.closed);
-            kept.sticks = kept.closed & ((event & answer.state[i].sticks) | (negation(event) & kept.sticks));
-            kept.way = select(event, select(ends, answer.state[i].way, zero), kept.way);
-            kept.drag = select(event, select(ends, answer.state[i].drag, zero), kept.drag);
+            auto const& found = answer.state[i];
+            ContactState<Real> const kept{ends, Mask<Real>(ends & found.sticks), select(ends, found.way, zero), select(ends, found.drag, zero)};
+            state[i] = select(event, kept, state[i]);
         }
         if (any(rattling)) come_to_rest(rattling, motion, state);
     }
@@ -191,19 +182,11 @@ private:
     /// What impacts at both corners in turn come to: neither approaches, as after one impact without restitution.
     SLIDEWAY_HD void come_to_rest(Mask<Real> rattling, PairOf<Real> const& motion, ContactState<Real> (&state)[2]) {
         for (auto& near : near_) near = near | rattling;
-        PairQuestion<Real> question = question_of(motion, rattling);
-        question.holding = question.kinetic;
+        PairQuestion<Real> const question = question_of(motion, rattling);
         auto const answer = PairChoice<Real>(stance_->pair, question).answer(friction_);
-        violated(rattling, answer, sum_of(motion));
+        jammed_ = jammed_ | (rattling & !answer.fits(motion.size()));
         push(rattling, motion, answer.force);
-        for (int i = 0; i < 2; ++i) {
-            auto const& found = answer.state[i];
-            auto& kept = state[i];
-            kept.closed = (rattling & found.closed) | (negation(rattling) & kept.closed);
-            kept.sticks = (rattling & found.sticks) | (negation(rattling) & kept.sticks);
-            kept.way = select(rattling, found.way, kept.way);
-            kept.drag = select(rattling, found.drag, kept.drag);
-        }
+        for (int i = 0; i < 2; ++i) state[i] = select(rattling, answer.state[i], state[i]);
     }
 
     /// Takes from closed contacts what is left of their normal velocity, and of their slip where they stick.  With the friction of the slip that
@@ -213,15 +196,11 @@ private:
         ContactState<Real> smooth[2] = {state[0], state[1]};
         for (auto& each : smooth) each.way = each.drag = zero;
         auto const before = stance_->motion(links_->vx, links_->vy, spin_);
-        auto impulse = stance_->pair.solve(before, {zero, zero}, state);
+        auto const impulse = stance_->pair.solve(before, {zero, zero}, state);
         auto const plain = stance_->pair.solve(before, {zero, zero}, smooth);
         Real const most = Real(4.0) * (abs(plain.normal[0]) + abs(plain.normal[1]));
         auto const tame = (abs(impulse.normal[0]) <= most) & (abs(impulse.normal[1]) <= most);
-        for (int i = 0; i < 2; ++i) {
-            impulse.normal[i] = select(tame, impulse.normal[i], plain.normal[i]);
-            impulse.along[i] = select(tame, impulse.along[i], plain.along[i]);
-        }
-        push(in, before, impulse);
+        push(in, before, select(tame, impulse, plain));
     }
 
     /// Puts corners that touch onto their walls.
@@ -247,17 +226,14 @@ private:
         for (auto& held : memory.held) held = {select(event, zero, held.side), select(event, zero, held.slip)};
         if (any(event & (state[0].closed | state[1].closed))) {
             auto const answer = lasting(event, stance_->motion(links_->vx, links_->vy, spin_), {state[0].closed, state[1].closed});
-            violated(event, answer, acceleration_);
+            jammed_ = jammed_ | (event & !answer.fits(acceleration_));
             for (int i = 0; i < 2; ++i) {
                 auto& held = memory.held[i];
                 held.side = select(event, select(answer.state[i].closed, side_[i], zero), held.side);
                 held.slip = select(event, answer.state[i].way, held.slip);
             }
         }
-        auto const again = t - memory.last <= no_time(end_);
-        memory.at_once = select(event, select(again, memory.at_once + one, zero), memory.at_once);
-        memory.last = select(event, t, memory.last);
-        jammed_ = jammed_ | (event & (memory.at_once >= Real(most_events_at_once)));
+        memory.count_event(event, t, end_);
         memory.jammed = select(jammed_, one, memory.jammed);
     }
 
@@ -267,35 +243,25 @@ private:
         Real const zero(0.0);
         auto const before = free_acceleration();
         PairQuestion<Real> question = question_of(before, event);
-        question.holding = holding_coefficient(p_);
+        question.holding = holding_coefficient(p_.friction);
         for (int i = 0; i < 2; ++i) {
             question.present[i] = question.present[i] & closed.is[i];
             question.slips[i] = abs(motion.along[i]) > Real(slip_at_rest) * slip_scale(p_);
             question.way[i] = select(motion.along[i] < zero, Real(-1.0), Real(1.0));
         }
-        acceleration_ = sum_of(before) + force_scale(p_) / p_.slider_mass;
+        acceleration_ = before.size() + force_scale(p_) / p_.slider_mass;
         return PairChoice<Real>(stance_->pair, question).answer(friction_);
     }
 
     /// Of the contacts without forces in them.
     SLIDEWAY_HD PairOf<Real> free_acceleration() const {
         Real const zero(0.0);
-        CentreAcceleration<Real> const centre(*links_, links_->accelerations(zero, zero, p_, free_crank_));
+        auto centre = links_->centre_acceleration(links_->accelerations(zero, zero, p_, free_crank_));
         return stance_->acceleration(centre.x, centre.y, spin_);
     }
 
     SLIDEWAY_FN PairQuestion<Real> question_of(PairOf<Real> const& before, Mask<Real> event) const {
-        Real const zero(0.0);
-        auto const no = mask_of<Real>(false);
-        PairQuestion<Real> question;
-        question.before = before;
-        question.kinetic = friction_ ? p_.friction.kinetic_coefficient : zero;
-        for (int i = 0; i < 2; ++i) {
-            question.target[i] = question.way[i] = zero;
-            question.present[i] = event & near_[i];
-            question.slips[i] = no;
-        }
-        return question;
+        return PairQuestion<Real>::of(before, event & near_[0], event & near_[1], friction_ ? p_.friction.kinetic_coefficient : Real(0.0));
     }
 
     /// Impulses in the contacts: new rates, and the books of them.
@@ -315,31 +281,12 @@ private:
         spin_ = select(in, spin_ + load.torque / p_.slider_inertia, spin_);
     }
 
-    SLIDEWAY_HD void violated(Mask<Real> event, PairAnswer<Real> const& answer, Real scale) {
-        auto const fits = answer.violation <= Real(most_violation) * scale;
-        jammed_ = jammed_ | (event & !fits);
-    }
-
-    SLIDEWAY_FN static Real sum_of(PairOf<Real> const& m) {
-        return (abs(m.normal[0]) + abs(m.normal[1])) + (abs(m.along[0]) + abs(m.along[1]));
-    }
     /// A bit for each corner that met its wall, a to d (PlanarCorners).
     SLIDEWAY_FN Real met_corners() const {
         auto const bit = [&](int i, double above, double below) {
             return select(met_[i], select(side_[i] > Real(0.0), Real(above), Real(below)), Real(0.0));
         };
         return bit(0, 1, 2) + bit(1, 8, 4);
-    }
-    SLIDEWAY_HD void book(Mask<Real> in, RigidMemory<Real>& memory) const {
-        auto& b = memory.books;
-        auto const put = [in](Real& to, Real value) { to = select(in, value, to); };
-        put(b.work, books_.work);
-        put(b.friction, books_.friction);
-        put(b.damping, books_.damping);
-        put(b.impulse, books_.impulse);
-        put(b.count, books_.count);
-        put(b.met, met_corners());
-        put(b.flight, books_.flight);
     }
 
     Parameters const& p_;

@@ -21,19 +21,12 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// The planar slider-crank whose block and walls are rigid (docs/model.md 13), as the lanes integrate it: corners fly, meet their walls in impacts without
 /// duration (`settle`), and are held there by a constraint as long as that pushes.
-struct RigidPlanarSliderCrank : PlanarBase, ModelDefaults {
+struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     template <class Real> using Report = RigidPlanarReport<Real>;
     template <class Real> using Memory = RigidMemory<Real>;
     template <class Real> using Watch = RigidWatch<Real>;
     template <class Real> using Observer = RigidObserver<Real, RigidPlanarReport>;
-    static constexpr int series = series_count;
-    static constexpr bool has_contacts = true;
-    static constexpr bool has_impacts = true;
-    static constexpr bool sees_contacts = false;  // its watch asks for forces
-    static constexpr bool has_shadows = false;
-    static constexpr bool has_crossings = true;
-    static constexpr bool has_patterns = false;
-    static constexpr bool has_linearisation = false;
+    static constexpr bool sees_contacts = false, has_patterns = false;  // its watch asks for forces
 
     bool friction = false, free_crank = false;
 
@@ -50,8 +43,6 @@ struct RigidPlanarSliderCrank : PlanarBase, ModelDefaults {
 
     /// Components of the state, a bit each.
     constexpr unsigned prescribed() const { return free_crank ? 0 : info.prescribed; }
-    static constexpr bool switches() { return false; }
-    static constexpr Watching watching(bool, bool) { return Watching::touches; }
 
     /// Depth [m] up to which a corner that meets its wall is located: what rounding leaves of its height, as the crank's angle grows too.
     template <class Real> SLIDEWAY_FN static Real located(PlanarParameters<Real> const& p, Real end) {
@@ -64,10 +55,6 @@ struct RigidPlanarSliderCrank : PlanarBase, ModelDefaults {
     }
     /// The bit of a corner among those that an impact `met`.
     static constexpr int met_bit(bool, int corner) { return corner; }
-    template <class Real>
-    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, PlanarParameters<Real> const& p) {
-        return slideway::left_stable_range(audit, energy_scale(p));
-    }
 
     /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>
@@ -85,8 +72,9 @@ struct RigidPlanarSliderCrank : PlanarBase, ModelDefaults {
         auto const held = (memory.held[0].side != zero) | (memory.held[1].side != zero);
         if (any(held)) {
             PlanarStance<Real> const stance(links, sincos(s[2]), memory.held[0].side, memory.held[1].side, p, free_crank);
-            CentreAcceleration<Real> const centre(links, motion);
-            ContactState<Real> const state[2] = {held_state(memory.held[0], p), held_state(memory.held[1], p)};
+            auto centre = links.centre_acceleration(motion);
+            using Settlement = PlanarSettlement<Real>;
+            ContactState<Real> const state[2] = {Settlement::state_of(memory.held[0], p, friction), Settlement::state_of(memory.held[1], p, friction)};
             auto const force = stance.pair.solve(stance.acceleration(centre.x, centre.y, s[5]), {zero, zero}, state);
             auto const load = stance.load(force);
             auto const pushed = links.accelerations(load.x, load.y, p, free_crank);
@@ -133,10 +121,6 @@ struct RigidPlanarSliderCrank : PlanarBase, ModelDefaults {
     }
 
 private:
-    template <class Real> SLIDEWAY_FN ContactState<Real> held_state(HeldContact<Real> const& held, PlanarParameters<Real> const& p) const {
-        return PlanarSettlement<Real>::state_of(held, p, friction);
-    }
-
     /// Of corners that are not held.
     template <class Real>
     SLIDEWAY_FN static void begin_report(PlanarCorners<Real> const& corners, RigidMemory<Real> const& memory,
@@ -166,13 +150,11 @@ private:
             Real const push = force.normal[i] / force_scale(p);
             contact.pressure[i] = select(state[i].closed, push, one);
             if (!friction) continue;
-            Real const hold = (holding_coefficient(p) * force.normal[i] - abs(force.along[i])) / force_scale(p);
+            Real const hold = (holding_coefficient(p.friction) * force.normal[i] - abs(force.along[i])) / force_scale(p);
             Real const slide = state[i].way * motion.along[i] / slip_scale(p);
             contact.grip[i] = select(state[i].sticks, hold, select(state[i].closed, slide, one));
         }
-        auto const both = state[0].closed & state[1].closed & (stance.side[0] == stance.side[1]);
-        contact.surfaces = count<Real>(both);
-        contact.points = count<Real>(state[0].closed & !both) + count<Real>(state[1].closed & !both);
+        contact.count_modes({state[0].closed, state[1].closed}, stance.side);
     }
 };
 

@@ -73,12 +73,4 @@ template <class Real> struct PlanarStance {
     }
 };
 
-/// Acceleration of the centre.
-template <class Real> struct CentreAcceleration {
-    Real x, y;
-    SLIDEWAY_FN CentreAcceleration(PlanarLinks<Real> const& l, PlanarLinkMotion<Real> const& m)
-        : x(negated(fma(l.x1, l.w1 * l.w1, fma(l.y1, m.a1, fma(l.x2, l.w2 * l.w2, l.y2 * m.a2))))),
-          y(fma(l.x1, m.a1, fma(l.x2, m.a2, negated(fma(l.y1, l.w1 * l.w1, l.y2 * (l.w2 * l.w2)))))) {}
-};
-
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -25,7 +25,7 @@ public:
         auto const changed = [&](int i) { return fma(h, s[i] * s[i], abs(free[i] - s[i])); };
         find(h, fma(p_.crank_length, changed(3), fma(p_.rod_length, changed(4), p_.half_length * changed(5))), contact);
         contact.books = ImpactBooks<Real>::none();
-        tell_modes(contact);
+        contact.count_modes(closed_, side_);
         if (none(near_[0] | near_[1])) return failed_;
         PlanarLinks<Real> links(t, free, p_, free_crank_);
         PlanarStance<Real> const stance(links, sincos(free[2]), side_[0], side_[1], p_, free_crank_);
@@ -70,35 +70,23 @@ private:
     /// @param before motion without impulses  @param start motion at the start of the step
     SLIDEWAY_HD PairOf<Real> solve(Mask<Real> touching, ContactPair<Real> const& pair, PairOf<Real> const& before, PairOf<Real> const& start) {
         Real const zero(0.0);
-        auto const no = mask_of<Real>(false);
-        PairQuestion<Real> question;
-        question.before = before;
-        question.kinetic = question.holding = friction_ ? p_.friction.kinetic_coefficient : zero;
-        for (int i = 0; i < 2; ++i) {
-            question.present[i] = near_[i];
-            question.slips[i] = no;
-            question.way[i] = zero;
-            question.target[i] = negated(p_.restitution) * min(start.normal[i], zero);
-        }
+        auto question = PairQuestion<Real>::of(before, near_[0], near_[1], friction_ ? p_.friction.kinetic_coefficient : zero);
+        for (int i = 0; i < 2; ++i) question.target[i] = negated(p_.restitution) * min(start.normal[i], zero);
         auto answer = PairChoice<Real>(pair, question).answer(friction_);
-        Real const speed = sum_of(before) + sum_of(start);
-        auto const fits = [&](PairAnswer<Real> const& a) { return a.violation <= Real(most_violation) * speed; };
+        Real const speed = before.size() + start.size();
         if (!friction_) {
-            failed_ = failed_ | (touching & !fits(answer));
+            failed_ = failed_ | (touching & !answer.fits(speed));
             return answer.force;
         }
         // With e > 0 and friction there need not be impulses, and they may make energy: then those without restitution are what is left.
         Real const gain = energy_made(before, pair.after(before, answer.force), answer.force);
-        auto const gains = touching & (gain > Real(1e-12) * energy_moved(before, answer.force)), none_fit = touching & !fits(answer);
+        auto const gains = touching & (gain > Real(1e-12) * energy_moved(before, answer.force)), none_fit = touching & !answer.fits(speed);
         if (any(gains | none_fit)) {
             question.target[0] = question.target[1] = zero;
             auto const dead = PairChoice<Real>(pair, question).answer(friction_);
             limit_energy(gains, pair, before, dead.force, answer.force);
-            for (int i = 0; i < 2; ++i) {
-                answer.force.normal[i] = select(none_fit, dead.force.normal[i], answer.force.normal[i]);
-                answer.force.along[i] = select(none_fit, dead.force.along[i], answer.force.along[i]);
-            }
-            failed_ = failed_ | (none_fit & !fits(dead));
+            answer.force = select(none_fit, dead.force, answer.force);
+            failed_ = failed_ | (none_fit & !dead.fits(speed));
         }
         return answer.force;
     }
@@ -114,17 +102,7 @@ private:
             add(books.impulse, impulse.normal[i]);
             closed_[i] = closed_[i] | (near_[i] & (impulse.normal[i] > zero));
         }
-        tell_modes(contact);
-    }
-
-    SLIDEWAY_HD void tell_modes(RigidPlanarContact<Real>& contact) const {
-        auto const both = closed_[0] & closed_[1] & (side_[0] == side_[1]);
-        contact.surfaces = count<Real>(both);
-        contact.points = count<Real>(closed_[0] & !both) + count<Real>(closed_[1] & !both);
-    }
-
-    SLIDEWAY_FN static Real sum_of(PairOf<Real> const& m) {
-        return (abs(m.normal[0]) + abs(m.normal[1])) + (abs(m.along[0]) + abs(m.along[1]));
+        contact.count_modes(closed_, side_);
     }
 
     PlanarParameters<Real> const& p_;

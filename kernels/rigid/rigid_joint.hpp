@@ -72,18 +72,9 @@ private:
             deepest = max(max(y.largest(one), y.largest(minus)), max(z.largest(one), z.largest(minus)));
         }
     };
-    SLIDEWAY_FN static LastingPairs<Real> lasting_pairs(Memory const& memory) {
-        Real const half(0.5);
-        LastingPairs<Real> last;
-        for (int i = 0; i < pair_count; ++i) {
-            last.held[i] = number_of(memory.held, i) > half;
-            last.sticks[i] = number_of(memory.sticks, i) > half;
-        }
-        return last;
-    }
 
     SLIDEWAY_HD void see(Depths const& depths, Memory const& memory, Contact& contact) const {
-        put_rates(contact);
+        put_rates_of<Axis::y>(contact), put_rates_of<Axis::z>(contact);
         Real const far(-1.0), half(0.5), zero(0.0);
         auto const watched = [&](Real held, Real d) { return select(held > half, far, d); };
         Quad<Real> const none{zero, zero, zero, zero};
@@ -94,10 +85,6 @@ private:
             contact.slides[face] = contact.slip[0][face] = contact.slip[1][face] = none;
             contact.watched[face] = {watched(held.a, d.a), watched(held.b, d.b), watched(held.c, d.c), watched(held.d, d.d)};
         }
-    }
-    SLIDEWAY_HD void put_rates(Contact& contact) const {
-        put_rates_of<Axis::y>(contact);
-        put_rates_of<Axis::z>(contact);
     }
     template <Axis axis> SLIDEWAY_HD void put_rates_of(Contact& contact) const {
         using Faces = FacePair<axis>;
@@ -146,7 +133,7 @@ SLIDEWAY_HD auto RigidJoint<Real>::forces(Memory const& memory, Contact* contact
     // NaN in a lane whose pose is, whatever its neighbours touch.
     Real const whole = (at_.motion.y + at_.motion.z) + (at_.motion.axes.x.x + at_.motion.axes.y.z), nothing = whole - whole;
     Forces on{{nothing, nothing, nothing}, {nothing, nothing, nothing}, memory.jammed > Real(0.0), {}};
-    auto const last = lasting_pairs(memory);
+    auto const last = LastingPairs<Real>::of(mask_of<Real>(true), memory);
     auto const holding = last.any();
     Depths const depths(at_);
     on.deepest = depths.deepest;
@@ -170,7 +157,7 @@ SLIDEWAY_HD auto RigidJoint<Real>::forces(Memory const& memory, Contact* contact
 
 template <class Real> SLIDEWAY_HD void RigidJoint<Real>::see(Memory const& memory, Contact& contact) const {
     see(Depths(at_), memory, contact);
-    auto const last = lasting_pairs(memory);
+    auto const last = LastingPairs<Real>::of(mask_of<Real>(true), memory);
     if (friction_ == nullptr || none(last.any())) return;
     Real const per_unit = Real(1.0) / slip_unit_;
     for (int i = 0; i < pair_count; ++i) {
@@ -199,11 +186,11 @@ SLIDEWAY_HD Mask<Real> RigidJoint<Real>::push(Real h, Real change, Twist<Real> c
                                               Mask<Real>& touching) const {
     JointStepImpulse<Real> impulse(h, change, contact, p_);
     if (any(impulse.touching())) {
-        put_rates(contact);
+        put_rates_of<Axis::y>(contact), put_rates_of<Axis::z>(contact);
         impulse.keep_meeting(contact);
     }
     touching = impulse.touching();
-    if (any(touching)) velocity = impulse.solve(at_, start, restitution, friction_);
+    if (any(touching)) velocity = impulse.solve(at_, start, restitution, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed(p_));
     return impulse.tell(contact);
 }
 

@@ -3,6 +3,7 @@
 #include "kernels/joint/contact_memory.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/real.hpp"
+#include "kernels/rigid/rigid_scales.hpp"
 #include "kernels/simd/expect.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -27,6 +28,12 @@ template <class Real> struct ImpactBooks {
         Real const zero(0.0);
         return {zero, zero, zero, zero, zero, zero, zero};
     }
+    SLIDEWAY_FN void take(Mask<Real> in, ImpactBooks const& from) {
+        using Books = ImpactBooks;
+        for (auto const of : {&Books::work, &Books::friction, &Books::damping, &Books::impulse, &Books::count, &Books::met, &Books::flight}) {
+            this->*of = select(in, from.*of, this->*of);
+        }
+    }
 };
 
 /// What a member with rigid contacts remembers between its steps, whatever touches.
@@ -43,11 +50,13 @@ template <class Real> struct RigidCourse {
         begun = jammed = at_once = zero;
         last = Real(-1.0);
     }
-    SLIDEWAY_FN void clear_books(Mask<Real> in) {
-        Real const zero(0.0);
-        for (auto* value : {&books.work, &books.friction, &books.damping, &books.impulse, &books.count, &books.met, &books.flight}) {
-            *value = select(in, zero, *value);
-        }
+    SLIDEWAY_FN void clear_books(Mask<Real> in) { books.take(in, ImpactBooks<Real>::none()); }
+    /// An event at t of a run until `end`: too many at one time have no end.
+    SLIDEWAY_FN void count_event(Mask<Real> event, Real t, Real end) {
+        Real const one(1.0);
+        at_once = select(event, select(t - last <= no_time(end), at_once + one, Real(0.0)), at_once);
+        last = select(event, t, last);
+        jammed = select(event & (at_once >= Real(most_events_at_once)), one, jammed);
     }
 };
 
@@ -64,15 +73,9 @@ template <class Real> SLIDEWAY_FN void start_memory(RigidMemory<Real>& memory) {
 }
 
 /// A number of the pair `number` of sixteen.
-template <class Real> SLIDEWAY_FN Real& number_of(Quad<Real> (&of)[face_count], int number) {
+template <class Four> SLIDEWAY_FN auto& number_of(Four (&of)[face_count], int number) {
     SLIDEWAY_EXPECT(number >= 0 && number < 4 * face_count);
     auto& quad = of[number / 4];
-    int const place = number % 4;
-    return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
-}
-template <class Real> SLIDEWAY_FN Real number_of(Quad<Real> const (&of)[face_count], int number) {
-    SLIDEWAY_EXPECT(number >= 0 && number < 4 * face_count);
-    auto const& quad = of[number / 4];
     int const place = number % 4;
     return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
 }

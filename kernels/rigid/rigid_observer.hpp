@@ -1,9 +1,24 @@
 #pragma once
 
+#include "kernels/lanes/model.hpp"
+#include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/slider_observer.hpp"
 #include "kernels/real.hpp"
+#include "kernels/rigid/rigid_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
+
+/// What is alike in the lanes of all mechanisms with rigid contacts.
+template <class Base> struct RigidLanes : Base, ModelDefaults {
+    static constexpr int series = series_count;
+    static constexpr bool has_contacts = true, is_rigid = true, has_shadows = false, has_crossings = true, has_linearisation = false;
+    static constexpr bool switches() { return false; }
+    static constexpr Watching watching(bool, bool) { return Watching::touches; }
+    template <class Real, class Parameters>
+    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Parameters const& p) {
+        return slideway::left_stable_range(audit, Base::energy_scale(p));
+    }
+};
 
 /// The quantities of a mechanism with rigid contacts: what impacts do is no integral over time, and booked by itself.
 /// @tparam Report_ RigidPlanarReport or RigidSliderReport

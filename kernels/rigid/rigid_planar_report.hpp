@@ -15,6 +15,12 @@ template <class Real> struct RigidPlanarContact : PlanarContact<Real> {
 
     /// Modes begin and end at the ends of steps.
     SLIDEWAY_FN static Real deepest() { return Real(0.0); }
+    /// @param closed whether the corner in front and the one behind last, each at the wall of its side
+    SLIDEWAY_FN void count_modes(Mask<Real> const (&closed)[2], Real const (&side)[2]) {
+        auto const both = closed[0] & closed[1] & (side[0] == side[1]);
+        this->surfaces = slideway::count<Real>(both);
+        this->points = slideway::count<Real>(closed[0] & !both) + slideway::count<Real>(closed[1] & !both);
+    }
 };
 
 template <class Real> struct RigidPlanarReport : PlanarReportOf<Real, RigidPlanarContact<Real>> {};

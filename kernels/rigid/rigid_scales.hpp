@@ -37,9 +37,8 @@ template <class Real> SLIDEWAY_FN Real force_scale(PlanarParameters<Real> const&
     return p.slider_mass * (abs(p.gravity_x) + abs(p.gravity_y) + drive);
 }
 /// Speed [m/s] along the way.
-template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
+template <class Parameters> SLIDEWAY_FN auto slip_scale(Parameters const& p) { return p.crank_length * p.rate_scale; }
 
-template <class Real> SLIDEWAY_FN Real slip_scale(SliderParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
 /// A pair of the joint that slips slower than this comes to rest [slip units], and one that sticks slips from `slip_again` on.
 inline constexpr double slip_stops = 3e-7, slip_again = 1e-6;
 /// Slip unit of a run [slip scales].  Around the dead centres friction turns all at once, and steps become as short as it takes to follow: what is
@@ -53,9 +52,6 @@ SLIDEWAY_FN double slip_unit(double rtol) {
 /// Coefficient up to which a contact sticks: a static one below the kinetic has no meaning.
 template <class Real> SLIDEWAY_FN Real holding_coefficient(FrictionParameters<Real> const& friction) {
     return max(friction.static_coefficient, friction.kinetic_coefficient);
-}
-template <class Real> SLIDEWAY_FN Real holding_coefficient(PlanarParameters<Real> const& p) {
-    return holding_coefficient(p.friction);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

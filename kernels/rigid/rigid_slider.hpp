@@ -12,12 +12,12 @@
 #include "kernels/rigid/guide_functions.hpp"
 #include "kernels/rigid/joint_offset.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
-#include "kernels/rigid/joint_watch.hpp"
 #include "kernels/rigid/rigid_joint.hpp"
 #include "kernels/rigid/rigid_memory.hpp"
 #include "kernels/rigid/rigid_observer.hpp"
 #include "kernels/rigid/rigid_scales.hpp"
 #include "kernels/rigid/rigid_slider_report.hpp"
+#include "kernels/rigid/rigid_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -25,21 +25,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// push as long as they last.  What guides it along the way is looked up: the lanes are compiled once for all mechanisms of a base.
 /// @tparam Number a number or a pack of them, of which and of whose Tangent the functions below are called  @tparam Base_ of the mechanism's row in
 /// mechanisms/list.hpp
-template <class Number, class Base_> struct RigidSlider : Base_, ModelDefaults {
+template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     using Base = Base_;
     template <class Real> using Parameters = RigidSliderParameters<Real>;
     template <class Real> using Report = RigidSliderReport<Real>;
     template <class Real> using Memory = RigidJointMemory<Real>;
     template <class Real> using Watch = JointWatch<Real>;
     template <class Real> using Observer = RigidObserver<Real, RigidSliderReport>;
-    static constexpr int series = series_count;
-    static constexpr bool has_contacts = true;
-    static constexpr bool has_impacts = true;
-    static constexpr bool sees_contacts = true;
-    static constexpr bool has_shadows = false;
-    static constexpr bool has_crossings = true;
-    static constexpr bool has_patterns = true;
-    static constexpr bool has_linearisation = false;
+    static constexpr bool sees_contacts = true, has_patterns = true;
 
     RigidConditions block;
     GuideFunctions<Number> const* guide;
@@ -52,11 +45,10 @@ template <class Number, class Base_> struct RigidSlider : Base_, ModelDefaults {
     /// A slider without a drive has no speed that slips are to be seen against.
     SLIDEWAY_HD void set_tolerance(double rtol) { block.slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
     SLIDEWAY_HD void tell_stages(bool inside, bool /*powers_alone*/) { block.integrands_alone = inside; }
-    static constexpr bool switches() { return false; }
-    static constexpr Watching watching(bool, bool) { return Watching::touches; }
 
     /// Pairs that last, a bit each, and those of them that stick.
-    template <class Real> SLIDEWAY_FN static Real contact_pattern(RigidJointMemory<Real> const& memory) {
+    template <class Real>
+    SLIDEWAY_FN static Real contact_pattern(Real, Real const*, RigidSliderParameters<Real> const&, RigidJointMemory<Real> const& memory) {
         Real pattern(0.0);
         for (int i = 0; i < pair_count; ++i) {
             pattern = fma(Real(static_cast<double>(1u << i)), number_of(memory.held, i), pattern);
@@ -84,10 +76,6 @@ template <class Number, class Base_> struct RigidSlider : Base_, ModelDefaults {
             if (face_apex(pair / 4, pair % 4) == apex) return pair;
         }
         return pair_count;
-    }
-    template <class Real>
-    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, RigidSliderParameters<Real> const& p) {
-        return slideway::left_stable_range(audit, Base::energy_scale(p));
     }
 
     /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.

@@ -34,12 +34,13 @@ template <class Real> struct TouchingPair {
         normal = along[0] = along[1] = zero;
         own = across = per_own = per_across = Real(1.0);
     }
-    /// With the friction of a known slip: a unit load drags by `drag` along both directions.
-    SLIDEWAY_FN void slide(Mask<Real> in, Real const (&drag)[2]) {
-        auto const with = fma(drag[0], pair.slip[0], fma(drag[1], pair.slip[1], act));
-        auto const comes = fma(drag[0], pair.dragged[0], fma(drag[1], pair.dragged[1], pushed));
-        act = select(in, with, act);
-        pushed = select(in, comes, pushed);
+    /// With the kinetic friction of a known slip v.
+    SLIDEWAY_FN void slide(Mask<Real> in, Real kinetic, Real const (&v)[2]) {
+        Real const square = fma(v[0], v[0], v[1] * v[1]);
+        auto const moves = in & (square > Real(0.0));
+        Real const share = select(moves, negated(kinetic) / sqrt(select(moves, square, Real(1.0))), Real(0.0)), drag[2] = {share * v[0], share * v[1]};
+        act = select(in, fma(drag[0], pair.slip[0], fma(drag[1], pair.slip[1], act)), act);
+        pushed = select(in, fma(drag[0], pair.dragged[0], fma(drag[1], pair.dragged[1], pushed)), pushed);
     }
     /// With a change of γ by a unit load.
     SLIDEWAY_FN void weigh(Real by_load) {
@@ -61,6 +62,12 @@ template <class Real> struct TouchingPair {
         return fma(along[0], pair.dragged[0], fma(along[1], pair.dragged[1], fma(normal, pushed, so_far)));
     }
 };
+
+/// Lanes in which a row and the three before it are the pairs of one face, and all may push.  Rows are in the order of their pairs.
+template <class Real> SLIDEWAY_FN Mask<Real> ends_whole_face(TouchingPair<Real> const* rows, int i) {
+    if (i < 3 || rows[i].number % 4 != 3 || rows[i - 3].number != rows[i].number - 3) return mask_of<Real>(false);
+    return (rows[i - 3].here & rows[i - 2].here) & (rows[i - 1].here & rows[i].here);
+}
 
 /// Of a search for loads.
 template <class Real> struct LoadGoal {

@@ -5,21 +5,9 @@
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 #include "kernels/steppers/gap_history.hpp"
+#include "kernels/steppers/watching.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-/// At which events of the contacts steps end, the same for a whole block.
-enum class Watching {
-    nothing,
-    gaps,              // no event ends a step that has been made, but steps are tried that end just beyond the next one
-    touches,           // pairs meet: what restitution needs, v0 changing only at accepted touch events (model.md 4)
-    touches_and_parts, // pairs part too: for a law that switches there, between shadows and their member
-    impacts,           // touches and parts alike, held within a step as with `modes`; √δ of the shallowest pair is the step's clock
-    modes,             // a law that switches has its contacts held within a step, so that the derivative is smooth and the stepper keeps its
-                       // order; a pair whose depth changes sign ends the step and is turned over explicitly
-};
-
-constexpr bool holds_contacts(Watching watching) { return watching == Watching::modes || watching == Watching::impacts; }
 
 /// Ends steps where pairs touch or part, and keeps what a member remembers of it.
 /// With `modes` what is held is always the sign of the depth at the start.  A pair may change twice in a step and seem untouched at its end, and
@@ -39,7 +27,7 @@ public:
             turn_pairs(fresh, r, memory);
         }
         this->keep(fresh, r);
-        if (watching == Watching::impacts) note_face(memory);
+        if (watching == Watching::clocks) note_face(memory);
     }
 
     /// The clock of the next step: the shallowest of the pairs that touch, none where a member flies.

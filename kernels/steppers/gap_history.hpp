@@ -14,8 +14,8 @@ public:
     /// Remembers the gaps at the start of the next step.  @param r ContactReport or PlanarContact
     template <class Contact> SLIDEWAY_FN void keep(Mask<Real> taken, Contact const& r) {
         for (int face = 0; face < quads; ++face) {
-            keep_quad(taken, r.penetration[face], start_depth_[face]);
-            keep_quad(taken, r.rate[face], start_rate_[face]);
+            start_depth_[face] = select(taken, r.penetration[face], start_depth_[face]);
+            start_rate_[face] = select(taken, r.rate[face], start_rate_[face]);
         }
     }
 
@@ -128,11 +128,6 @@ private:
         Real const first = min(rises.at[0].theta, min(rises.at[1].theta, rises.at[2].theta));
         auto const twice = (rises.at[0].theta <= one) & (rises.at[2].theta <= one);
         return {select(rises.any, min(first, Real(0.999)), one), Mask<Real>(rises.any & (twice | (depth.v1 < zero)))};
-    }
-
-    SLIDEWAY_FN static void keep_quad(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
-        to = {select(taken, from.a, to.a), select(taken, from.b, to.b), select(taken, from.c, to.c),
-              select(taken, from.d, to.d)};
     }
 };
 

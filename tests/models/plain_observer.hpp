@@ -18,6 +18,7 @@ template <class Real> struct PlainObserver {
     template <class Report> SLIDEWAY_FN static void integrands(Report const&, Real*) {}
     template <class Report> SLIDEWAY_FN static void powers_of(Report const&, Real*) {}
     SLIDEWAY_FN Real integral(int) const { return Real(0.0); }
+    template <class Report> SLIDEWAY_FN static void take_impulses(Mask<Real>, Report const&) {}
     template <class Report>
     SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*, bool) {}
 };

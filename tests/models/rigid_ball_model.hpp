@@ -28,7 +28,7 @@ template <class Real> struct RigidBallReport { RigidBallContact<Real> contact; }
 struct RigidBallModel : PlainModel<2> {
     using Inputs = testing::RigidBallInputs;
     static constexpr bool has_contacts = true;
-    static constexpr bool has_impacts = true;
+    static constexpr bool is_rigid = true;
     template <class Real> struct Parameters { Real gravity, amplitude, frequency, phase, restitution; };
     template <class Real> using Report = RigidBallReport<Real>;
     template <class Real> using Memory = RigidBallMemory<Real>;

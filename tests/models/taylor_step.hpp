@@ -31,8 +31,6 @@ public:
             of_state[i] = last_power_ * max(abs(c_[i][terms] * to.step), Real(0.1353352832366127) * abs(c_[i][terms - 1]));
     }
 
-    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
-
     /// The state inside the step, at fraction θ of it.
     SLIDEWAY_FN void dense(StepStart<Model, Real> const&, Attempt<Model, Real> const& to, Real theta, Real* state) const {
         at(theta * to.step, state);

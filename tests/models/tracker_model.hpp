@@ -38,7 +38,7 @@ struct TrackerModel : PlainModel<2> {
         of_state[0] = negated(p.bends * sincos(fma(Real(0.5), step, t)).sin);
     }
 
-    template <class Real> SLIDEWAY_FN static Real contact_pattern(Real, Real const*, Parameters<Real> const&) {
+    template <class Real> SLIDEWAY_FN static Real contact_pattern(Real, Real const*, Parameters<Real> const&, Memory<Real> const&) {
         return Real(1.0);
     }
 

@@ -49,7 +49,7 @@ template <class Model> std::vector<double> answers(Model const& model, oracle::C
         for (int i = 0; i < 5; ++i) said.insert(said.end(), matrix[i], matrix[i] + 5);
     }
     say(at.mass_y, at.mass_z, at.mass_yz, at.touching, at.rate_squared());
-    say(model.contact_pattern(c.t, state, p));
+    say(model.contact_pattern(c.t, state, p, memory));
     for (int apex = 0; apex < 8; ++apex)
         say(model.gap(c.t, state, p, false, apex), model.gap(c.t, state, p, true, apex));
     double end[state_size];

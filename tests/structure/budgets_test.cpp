@@ -38,22 +38,22 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'306u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'247u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'621u);
+    EXPECT_LE(Layer("kernels").lines(), 17'075u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'016u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'604u);
     EXPECT_LE(Layer("host").lines(), 29'980u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
-    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 346u);
+    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 343u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }
 
 TEST(Budgets, OfChoicesInSteps) {
     auto const choices = Layer("kernels/lanes").count(Pattern("if constexpr"));
-    EXPECT_LE(choices.in_all, 43u);
-    EXPECT_LE(choices.most, 10u) << "in one file";
+    EXPECT_LE(choices.in_all, 29u);
+    EXPECT_LE(choices.most, 5u) << "in one file";
 }
 
 }  // namespace

@@ -244,7 +244,7 @@ TEST(SectionsOfStiffSteps, LieOnTheirSurfaceAndCostWhatTheirMemberNeeds) {
     }
 }
 
-TEST(SectionsOfImpactSteps, AreThoseOfStepsOfTime) {
+TEST(SectionsOfClockedSteps, AreThoseOfStepsOfTime) {
     // vy is zero in the middle of impacts.  From one to the next errors grow a hundredfold, so that they are judged by another method's.
     Sections const want = sections(best_isa(), "dopri5", 1e-11, 0.006);
     auto const errors = [&](std::string_view method) {

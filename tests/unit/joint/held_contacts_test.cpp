@@ -44,10 +44,10 @@ public:
         SliderReport<double> report;
         Faults<double> faults;
     };
-    /// @param in_impacts a face at a time, else all faces
-    [[nodiscard]] Evaluation evaluate(bool in_impacts, bool powers_alone = false) const {
+    /// @param by_clocks a face at a time, else all faces
+    [[nodiscard]] Evaluation evaluate(bool by_clocks, bool powers_alone = false) const {
         auto block = block_;
-        block.in_impacts = in_impacts;
+        block.by_clocks = by_clocks;
         block.powers_alone = powers_alone;
         Evaluation e;
         e.faults = SliderCrank::derivative<true, double>(c_.t, c_.state.data(), p_, memory, block, e.rates, &e.report);
@@ -55,7 +55,7 @@ public:
     }
     [[nodiscard]] Evaluation lean() const {
         auto block = block_;
-        block.in_impacts = true;
+        block.by_clocks = true;
         Evaluation e;
         e.faults = SliderCrank::derivative<false, double>(c_.t, c_.state.data(), p_, memory, block, e.rates, nullptr);
         return e;

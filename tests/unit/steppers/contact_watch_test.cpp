@@ -25,7 +25,7 @@ struct Pairs {
 
     explicit Pairs(Contact const& start) {
         start_memory(memory);
-        watch.begin(true, start, memory, Watching::impacts);
+        watch.begin(true, start, memory, Watching::clocks);
     }
 };
 

@@ -231,7 +231,7 @@ struct Impacts {
     Memory memory;
     explicit Impacts(ContactReport<double> const& start) {
         start_memory(memory);
-        watch.begin(true, start, memory, Watching::impacts);
+        watch.begin(true, start, memory, Watching::clocks);
     }
     bool holds(Pair const& p) const { return memory.held[p.face].*p.apex == 1.0; }
 };

@@ -12,7 +12,7 @@
 #include "kernels/steppers/contact_clock.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway::impact_steps_test {
+namespace slideway::clocked_steps_test {
 namespace {
 
 constexpr double clearance = 5e-4, crank_speed = 47;
@@ -50,9 +50,9 @@ double distance(testing::EnsembleResult const& a, testing::EnsembleResult const&
     return largest;
 }
 
-class ImpactStepsOf : public ::testing::TestWithParam<Mechanism> {};
+class ClockedStepsOf : public ::testing::TestWithParam<Mechanism> {};
 
-TEST_P(ImpactStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
+TEST_P(ClockedStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
     // A slider that nothing drives meets more edges in the same time, and errors grow with each.
     for (Law const law : testing::every_law()) {
         for (Damping const damping : testing::dampings_of(info(law))) {
@@ -93,12 +93,12 @@ TEST_P(ImpactStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
 }
 
 std::string name_of_mechanism(::testing::TestParamInfo<Mechanism> const& of) { return std::string(info(of.param).name); }
-INSTANTIATE_TEST_SUITE_P(EveryMechanism, ImpactStepsOf,
+INSTANTIATE_TEST_SUITE_P(EveryMechanism, ClockedStepsOf,
                          ::testing::Values(Mechanism::slider_crank, Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::free_slider), name_of_mechanism);
 
 /// A slider that starts flat bounces flat where its law lets it do so by steps of time: tilts of the size of the step's error would grow a
 /// thousandfold with every few landings, and the motion would be another one.
-TEST(ImpactSteps, LeaveAFlatSliderFlat) {
+TEST(ClockedSteps, LeaveAFlatSliderFlat) {
     int flat = 0;
     for (Law const law : testing::every_law()) {
         Parts parts{law, testing::dampings_of(info(law)).front()};
@@ -123,7 +123,7 @@ TEST(ImpactSteps, LeaveAFlatSliderFlat) {
     EXPECT_GE(flat, 12);
 }
 
-TEST(ImpactSteps, BeginInsideImpactsToo) {
+TEST(ClockedSteps, BeginInsideImpactsToo) {
     Parts const parts{Law::conservative, Damping::rate, true, false};
     auto members = starts(parts, 8);
     for (auto& in : members) {
@@ -148,7 +148,7 @@ TEST(ImpactSteps, BeginInsideImpactsToo) {
 
 /// A pair that parts is left within its face by what its parting is off by: deeper, at loose tolerances, than a touch is located to.  It must
 /// not be met there again and again.
-TEST(ImpactSteps, LeavePartingsBehindAtLooseTolerances) {
+TEST(ClockedSteps, LeavePartingsBehindAtLooseTolerances) {
     Parts const parts{Law::conservative, Damping::rate, true, false};
     auto options = options_of(parts, Method::verner65, 1e-2, 0.05);
     options.settings.max_steps = 20'000;
@@ -180,7 +180,7 @@ double evaluations(testing::EnsembleResult const& r) {
     return sum / static_cast<double>(r.records.size());
 }
 
-TEST(ImpactSteps, NeedFewerEvaluationsForTheSameEnergy) {
+TEST(ClockedSteps, NeedFewerEvaluationsForTheSameEnergy) {
     Parts const parts{Law::conservative, Damping::rate, true, false};
     auto const members = starts(parts, 48);
     struct Pair { double by_time, by_clock, share; };
@@ -192,7 +192,7 @@ TEST(ImpactSteps, NeedFewerEvaluationsForTheSameEnergy) {
     }
 }
 
-TEST(ImpactSteps, EndWherePairsTouchWithoutBeingMadeAgain) {
+TEST(ClockedSteps, EndWherePairsTouchWithoutBeingMadeAgain) {
     Parts const parts{Law::conservative, Damping::rate, true, false};
     auto const result = testing::run(best_isa(), options_of(parts, Method::verner65, 1e-4, 0.05), starts(parts, 48));
     double accepted = 0, rejected = 0, onsets = 0;
@@ -207,7 +207,7 @@ TEST(ImpactSteps, EndWherePairsTouchWithoutBeingMadeAgain) {
 }
 
 /// Integrals run over what is left of a step, and so do those of the accelerations, which nothing else controls.
-TEST(ImpactSteps, IntegrateUpToWhereTheyEndEarly) {
+TEST(ClockedSteps, IntegrateUpToWhereTheyEndEarly) {
     Parts const parts{Law::conservative, Damping::rate, true, false};
     auto const members = starts(parts, 8);
     auto const run = [&](Method method, double tolerance) {
@@ -230,7 +230,7 @@ TEST(ImpactSteps, IntegrateUpToWhereTheyEndEarly) {
     }
 }
 
-TEST(ImpactSteps, SampleInsideImpacts) {
+TEST(ClockedSteps, SampleInsideImpacts) {
     Parts const parts{Law::conservative, Damping::rate, true, false};
     auto const members = starts(parts, 8);
     std::vector<double> times;
@@ -284,4 +284,4 @@ TEST(ClockedStep, MovesTimeAndRootTogether) {
 }
 
 }  // namespace
-}  // namespace slideway::impact_steps_test
+}  // namespace slideway::clocked_steps_test

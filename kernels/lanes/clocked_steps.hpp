@@ -9,7 +9,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// How contacts with forces limit steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is
 /// in contact, and the first one of an impact until the next.  A touch or a parting ends its step.
-template <class Stepper, class Model, class Real> class ImpactSteps : public FreeSteps<Stepper, Model, Real> {
+template <class Stepper, class Model, class Real> class ClockedSteps : public FreeSteps<Stepper, Model, Real> {
     using Base = FreeSteps<Stepper, Model, Real>;
     using State = MemberState<Model, Real>;
 
@@ -25,7 +25,7 @@ public:
         beside_ = s.contacts.watch.touching(s.contacts.memory) > Real(1.5);
         turned_ = mask_of<Real>(false);
         // Who starts in contact, or is left in one before any impact began, knows of no step by the clock yet.
-        Real const known = s.course.impacts.step, by_time = s.course.h;
+        Real const known = s.course.clocked.step, by_time = s.course.h;
         Real const by_clock = min(select(known > Real(0.0), known, clock.own_of(by_time)), clock.way_out());
         Real const h = select(in_contact_, Real(1.02) * clock.time_of(by_clock), by_time);
         auto const failed = in_contact_ & (s.course.rejections > Real(0.5));
@@ -42,14 +42,14 @@ public:
     SLIDEWAY_HD Real next(Step& step, Mask<Real> accepted, Real factor) const {
         auto const& last = step.stepper.step();
         Real const own = last.own * factor;
-        auto& impacts = step.pack.state.course.impacts;
+        auto& clocked = step.pack.state.course.clocked;
         // Not of what an event has left over of a step.
-        auto const whole = (own > impacts.flight_step) | (last.own > Real(0.1) * impacts.flight_step);
-        impacts.flight_step = select(accepted & !in_contact_ & whole, own, impacts.flight_step);
+        auto const whole = (own > clocked.flight_step) | (last.own > Real(0.1) * clocked.flight_step);
+        clocked.flight_step = select(accepted & !in_contact_ & whole, own, clocked.flight_step);
         auto const begins = last.start.runs() & (last.start.rate > Real(0.0)) & (last.start.root < Real(0.1) * last.end.root);
         Real const first = own * sqrt(max(last.start.rate, Real(0.0)));
-        impacts.alone = select(accepted & begins & !beside_, first, impacts.alone);
-        impacts.beside = select(accepted & begins & beside_, first, impacts.beside);
+        clocked.alone = select(accepted & begins & !beside_, first, clocked.alone);
+        clocked.beside = select(accepted & begins & beside_, first, clocked.beside);
         return select(accepted, last.end.ending(own), own);
     }
 
@@ -92,7 +92,7 @@ public:
         auto const busy = step.pack.busy;
         Real const longest = step.longest();
         c.h = select(busy & !in_contact_, min(wish, longest), c.h);
-        c.impacts.step = select(busy & step.stepper.step().start.runs(), wish, c.impacts.step);
+        c.clocked.step = select(busy & step.stepper.step().start.runs(), wish, c.clocked.step);
         if (any(turned_)) turn(step.pack.state, step.stepper, wish, longest);
     }
 
@@ -142,17 +142,17 @@ private:
     /// The step after a touch or a parting.  The first of an impact is as of the last one of its kind, alone or beside another contact; its
     /// length by the clock falls with the speed roughly as v^-0.6.  A contact that another one interrupted goes on as it was, a flight too.
     SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Real next, Real longest) const {
-        auto& impacts = s.course.impacts;
+        auto& clocked = s.course.clocked;
         auto const clock = s.contacts.watch.clock(s.contacts.memory);
         auto const beside = stepper.step().start.runs();
         Mask<Real> const touches = turned_ & clock.runs() & (clock.rate > Real(0.0));
         Mask<Real> const goes_on = turned_ & clock.runs() & !touches, flies = turned_ & !clock.runs();
         Real const root_speed = sqrt(max(clock.rate, Real(1e-12)));
-        Real const alone = select(impacts.alone > Real(0.0), impacts.alone, sqrt(Real(1e-3) * impacts.flight_step));
-        Real const as_before = select(beside, select(impacts.beside > Real(0.0), impacts.beside, Real(0.2) * alone), alone);
-        impacts.outer = select(touches & beside, next, impacts.outer);
-        impacts.step = select(touches, as_before / root_speed, select(goes_on, impacts.outer, impacts.step));
-        s.course.h = select(flies, min(impacts.flight_step, longest), s.course.h);
+        Real const alone = select(clocked.alone > Real(0.0), clocked.alone, sqrt(Real(1e-3) * clocked.flight_step));
+        Real const as_before = select(beside, select(clocked.beside > Real(0.0), clocked.beside, Real(0.2) * alone), alone);
+        clocked.outer = select(touches & beside, next, clocked.outer);
+        clocked.step = select(touches, as_before / root_speed, select(goes_on, clocked.outer, clocked.step));
+        s.course.h = select(flies, min(clocked.flight_step, longest), s.course.h);
     }
 
     Mask<Real> in_contact_ = mask_of<Real>(false);  // lanes whose step is within an impact, by whatever clock
