@@ -62,7 +62,7 @@ void print_parts(Scene const& scene) {
 
     std::vector<std::string_view> asked, left;
     Outputs const& outputs = outputs_of(scene.parts.mechanism);
-    Selection const known = outputs.has_quantities & ~(scene.parts.rigid ? without_rigid_contact : 0);
+    Selection const known = outputs.has_quantities & ~(scene.parts.rigid ? without_rigid_contact : of_rigid_contact);
     for (QuantityInfo const& quantity : selected(outputs.quantities, known & scene.quantities)) asked.emplace_back(quantity.name);
     for (QuantityInfo const& quantity : selected(outputs.quantities, known & ~scene.quantities)) left.emplace_back(quantity.name);
     auto const listed = [](auto const& names) { return names.empty() ? "no quantity" : fmt::format("{}", fmt::join(names, ", ")); };

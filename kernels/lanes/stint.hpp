@@ -49,8 +49,9 @@ public:
         auto const members = pack.busy;
         int const members_at_start = held_lanes(members);
         for (int i = 0; i < attempts && any(pack.busy); ++i) {
-            // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.
-            if ((!Regroups<Model> || Stepper::has_impulses) && held_lanes(pack.busy) < members_at_start) break;
+            // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.  A watch of gaps forgets the last step.
+            bool const may_end = (!Regroups<Model> && pack.needs.watching != Watching::gaps) || Stepper::has_impulses;
+            if (may_end && held_lanes(pack.busy) < members_at_start) break;
             begin();
             // Before the member: what the stepper knows of the step is then the member's.
             step_.neighbours.attempt(step_);

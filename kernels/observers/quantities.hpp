@@ -32,6 +32,7 @@ enum class Keeper { mechanism, accelerations, signals };
     row(mean_apex_force, mean, mechanism, "N", 8, "apex", "time mean of the normal force of the apex, both of its faces summed") \
     row(mode_time, counted, mechanism, "s", 4, "mode_class", "time spent in the mode class") \
     row(contact_onsets, counted, mechanism, "1", 1, nullptr, "changes from free flight to contact") \
+    row(capped_impacts, counted, mechanism, "1", 1, nullptr, "rigid impacts whose restitution was lowered, as with friction it would have made energy") \
     row(energy_residual, of_audit, mechanism, "J", 1, nullptr, "energy residual E(t)-E(0)-W+D_f+D_d: energy that the contact law made") \
     row(switching_energy, counted, mechanism, "J", 1, nullptr, "sum of the jumps of the contact potential where modes switch, at located switches") \
     row(energy_change, counted, mechanism, "J", 1, nullptr, "mechanical energy E(t)-E(0)") \

@@ -233,6 +233,7 @@ protected:
         using enum Quantity;
         if constexpr (q == mode_time) return mode_time_[column];
         else if constexpr (q == contact_onsets) return onsets_;
+        else if constexpr (q == capped_impacts) return Real(0.0);  // RigidObserver has them
         else if constexpr (q == switching_energy) return switched_;
         else if constexpr (q == energy_change) return audit().change;
         else if constexpr (q == energy_residual) return audit().residual();

@@ -44,12 +44,15 @@ public:
     SLIDEWAY_HD void solve(Mask<Real> in, Real const (&restitution)[pair_count]) {
         find(in, restitution);
         auto const less = in & ((energy_made() > Real(1e-12) * energy_moved()) | pairs.failed);
-        if (friction_ && any(less)) limit_energy(less);
+        if (!friction_ || none(less)) return;
+        limit_energy(less);
+        capped_ = less;
     }
 
     /// What the impulses come to.
     SLIDEWAY_HD ImpactBooks<Real> books() const {
         auto books = ImpactBooks<Real>::none();
+        books.capped = count<Real>(capped_);
         books.work = all_.centre.impulse_work(pairs.load().linear, (pairs.after - pairs.before).linear);
         auto const mean = Real(0.5) * (arrival_ + pairs.after);
         for (int k = 0; k < pairs.count(); ++k) {
@@ -122,6 +125,7 @@ private:
     Pairs const& all_;
     Twist<Real> arrival_;
     bool friction_;
+    Mask<Real> capped_ = mask_of<Real>(false);
     Real enough_, bearable_;  // change of a velocity that is none, or is where it cannot be made less [m/s]
 };
 

@@ -111,6 +111,7 @@ private:
                 question.target[0] = question.target[1] = zero;
                 auto const dead = PairChoice<Real>(stance_->pair, question).answer(friction_);
                 limit_energy(gains, stance_->pair, before, dead.force, answer.force);
+                books_.capped = max(books_.capped, count<Real>(gains));
             }
         }
         for (int i = 0; i < 2; ++i) {

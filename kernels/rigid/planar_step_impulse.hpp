@@ -37,7 +37,7 @@ public:
         auto start_links = links;
         start_links.turn_at(free_crank_ ? s[3] : p_.crank_speed, s[4]);
         auto const start = stance.motion(start_links.vx, start_links.vy, s[5]);
-        auto const impulse = solve(touching, stance.pair, before, start);
+        auto const impulse = solve(touching, stance.pair, before, start, contact);
         auto const load = stance.load(impulse);
         auto const change = links.response(load.x, load.y, p_, free_crank_);
         if (free_crank_) free[3] = select(touching, links.w1 + change.a1, free[3]);
@@ -68,7 +68,8 @@ private:
     }
 
     /// @param before motion without impulses  @param start motion at the start of the step
-    SLIDEWAY_HD PairOf<Real> solve(Mask<Real> touching, ContactPair<Real> const& pair, PairOf<Real> const& before, PairOf<Real> const& start) {
+    SLIDEWAY_HD PairOf<Real> solve(Mask<Real> touching, ContactPair<Real> const& pair, PairOf<Real> const& before, PairOf<Real> const& start,
+                               RigidPlanarContact<Real>& contact) {
         Real const zero(0.0);
         auto question = PairQuestion<Real>::of(before, near_[0], near_[1], friction_ ? p_.friction.kinetic_coefficient : zero);
         for (int i = 0; i < 2; ++i) question.target[i] = negated(p_.restitution) * min(start.normal[i], zero);
@@ -87,6 +88,7 @@ private:
             limit_energy(gains, pair, before, dead.force, answer.force);
             answer.force = select(none_fit, dead.force, answer.force);
             failed_ = failed_ | (none_fit & !dead.fits(speed));
+            contact.books.capped = count<Real>(gains | none_fit);
         }
         return answer.force;
     }

@@ -18,6 +18,9 @@ inline constexpr Selection without_rigid_contact =
                     Quantity::rms_crank_torque, Quantity::switching_energy, Quantity::peak_acceleration, Quantity::rms_acceleration,
                     Quantity::peak_channel_acceleration, Quantity::acceleration_area});
 
+/// Quantities that they alone have.
+inline constexpr Selection of_rigid_contact = selections::of({Quantity::capped_impacts});
+
 /// Series that time stepping has not: it knows impulses of whole steps, and no forces of an instant.
 inline constexpr Selection series_without_time_stepping =
     selections::of({Series::normal_force, Series::crank_torque, Series::surfaces, Series::lines, Series::points, Series::ax, Series::ay, Series::az,

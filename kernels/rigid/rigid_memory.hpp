@@ -23,14 +23,15 @@ template <class Real> struct ImpactBooks {
     Real count;     // of contacts that met their wall
     Real met;       // which, a bit each
     Real flight;    // how long the bounces that it ends would have gone on [s]
+    Real capped;    // 1 where its energy was bounded (M13.7), else 0
 
     SLIDEWAY_FN static ImpactBooks none() {
         Real const zero(0.0);
-        return {zero, zero, zero, zero, zero, zero, zero};
+        return {zero, zero, zero, zero, zero, zero, zero, zero};
     }
     SLIDEWAY_FN void take(Mask<Real> in, ImpactBooks const& from) {
         using Books = ImpactBooks;
-        for (auto const of : {&Books::work, &Books::friction, &Books::damping, &Books::impulse, &Books::count, &Books::met, &Books::flight}) {
+        for (auto const of : {&Books::work, &Books::friction, &Books::damping, &Books::impulse, &Books::count, &Books::met, &Books::flight, &Books::capped}) {
             this->*of = select(in, from.*of, this->*of);
         }
     }

@@ -29,6 +29,11 @@ public:
     SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state, bool switches) {
         Base::start(fresh, r, state, switches);
         owed_ = select(fresh, Real(0.0), owed_);
+        capped_ = select(fresh, Real(0.0), capped_);
+    }
+    SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
+        Base::finish(index, time, selected, row);
+        if (selects(selected, Quantity::capped_impacts)) row[quantity_column(Quantity::capped_impacts)] = lane(capped_, index);
     }
 
     SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, Report const& r, Real const* state, bool switches) {
@@ -73,9 +78,11 @@ private:
         add(this->integral_[Base::template place_of<friction_loss>], books.friction);
         add(this->integral_[Base::template place_of<damping_loss>], books.damping);
         add(this->integral_[Base::template place_of<mean_normal_force>], books.impulse);
+        add(capped_, books.capped);
     }
 
-    Real owed_;  // flight that is still to come [s]
+    Real owed_;    // flight that is still to come [s]
+    Real capped_;  // impacts whose energy was bounded
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -139,6 +139,13 @@ TEST(RigidImpacts, BalanceTheirEnergy) {
             EXPECT_GE(r.value(i, Quantity::damping_loss), 0) << i;
             EXPECT_LT(std::abs(r.value(i, Quantity::energy_residual)), 1e-7) << i << " " << free_crank;
         }
+        // Without friction Newton's restitution makes no energy, and without restitution friction makes none.
+        for (auto const& [friction, e] : {std::pair{false, 0.9}, {true, 0.0}}) {
+            auto others = members;
+            for (auto& in : others) in.restitution = e;
+            auto const without = testing::run(best_isa(), rigid_options(rigid_planar_parts(friction, free_crank), 1e-9, 0.1), others);
+            for (std::size_t i = 0; i < others.size(); ++i) EXPECT_EQ(without.value(i, Quantity::capped_impacts), 0) << i << " " << e;
+        }
     }
 }
 
@@ -164,6 +171,9 @@ TEST(RigidImpacts, OfAnyBlockTakeEnergyAndEnd) {
             EXPECT_LT(residual, 1e-5 * scale) << i << " " << free_crank;
         }
         EXPECT_LT(jammed, members.size() / 200);
+        double capped = 0;
+        for (std::size_t i = 0; i < members.size(); ++i) capped += r.value(i, Quantity::capped_impacts);
+        EXPECT_GT(capped, 20) << "friction up to 3 is strong";
     }
 }
 
