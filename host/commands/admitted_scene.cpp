@@ -7,7 +7,7 @@ namespace slideway::cli {
 Scene admitted_scene(SceneArguments const& arguments, bool any_start) {
     Scene scene = load_scene(arguments);
     auto const starts = admit(scene, any_start);
-    for (std::string const& warning : all_warnings(scene)) tell("warning: {}\n", warning);
+    for (std::string const& warning : scene.warnings) tell("warning: {}\n", warning);
     if (starts) tell("warning: {}\n", *starts);
     return scene;
 }

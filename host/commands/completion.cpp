@@ -29,12 +29,12 @@ template <class Words> std::string lines(std::string_view left, Words const& wor
 std::string of_keys(std::string_view word) {
     std::string text;
     auto const sign = word.find('=');
-    for (KeyReference const& key : known_keys()) {
+    for (Setting const& key : known_keys()) {
         if (sign == word.npos)
             text += line(fmt::format("{}=", key.name), key.meaning);
         else if (key.name == word.substr(0, sign))
             text += key.type == Setting::Type::truth ? lines(word.substr(0, sign + 1), std::to_array<std::string_view>({"true", "false"}), key.meaning)
-                                                     : lines(word.substr(0, sign + 1), key.choices, key.meaning);
+                                                     : lines(word.substr(0, sign + 1), key.all_choices(), key.meaning);
     }
     return text;
 }

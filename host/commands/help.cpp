@@ -74,7 +74,7 @@ std::string keys_text() {
     std::string text =
         ".SH SCENES\nA scene is a file in TOML. Numbers are in SI units, or texts with a unit: \"0.1 mm\", \"30 rpm\". "
         "Its keys, each with unit, domain and default:\n";
-    for (KeyReference const& key : known_keys()) {
+    for (Setting const& key : known_keys()) {
         std::string const unit = key.unit.empty() || key.unit == "1" ? std::string() : fmt::format(" [{}]", key.unit);
         text += entry(bold(key.name) + plain(unit), plain(described(key)));
     }

@@ -245,7 +245,7 @@ std::string check_json(Scene const& scene, Prediction const& prediction, std::op
     for (DerivedNumber const& one : derived_numbers(scene)) {
         json["derived"].push_back({{"name", one.key->name}, {"value", number(one.value)}, {"unit", one.key->unit}, {"from", one.words}});
     }
-    json["warnings"] = all_warnings(scene);
+    json["warnings"] = scene.warnings;
     json["members"] = member_count(scene);
     json["backend"] = backend.name();
     json["isa"] = backend.isa();

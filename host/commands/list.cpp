@@ -66,7 +66,7 @@ void print_mechanisms() {
 
 /// In the order of a scene's tables, each with its unit, domain and default, and who knows it where not all do.
 void print_keys() {
-    for (KeyReference const& key : known_keys()) {
+    for (Setting const& key : known_keys()) {
         print_row("  {:<30} {:<8} {}", key.name, key.unit, described(key));
     }
 }

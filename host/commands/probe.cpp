@@ -89,7 +89,7 @@ int execute(ProbeArguments const& arguments) {
     std::optional<OutputTarget> const target = arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
     StateTable const table =
         arguments.table.empty() ? start_state(scene) : read_state_table(*input_stream(arguments.table), arguments.table, scene);
-    for (std::string const& warning : all_warnings(scene)) tell("warning: {}\n", warning);
+    for (std::string const& warning : scene.warnings) tell("warning: {}\n", warning);
     for (std::string const& warning : table.warnings) tell("warning: {}\n", warning);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
     if (target) target->write(probed_text(table, results));

@@ -59,11 +59,9 @@ constexpr struct {
     {{-std::numbers::pi / 2, std::numbers::pi / 2}, "the {} must be in [-90, 90] degrees", "use a value from -90 deg to 90 deg"},
 };
 
-}  // namespace
+static_assert(std::size(double_keys) == twin_count);
 
-namespace {
-
-std::vector<Key const*> every_key() {
+std::vector<Key const*> make_every_key() {
     std::vector<Key const*> keys;
     auto const add = [&](std::span<Key const> more) {
         for (Key const& key : more) {
@@ -88,19 +86,6 @@ std::vector<Key const*> every_key() {
     return keys;
 }
 
-std::span<Key const* const> every_known_key() {
-    static OfAllKnown<std::vector<Key const*>> all(&every_key);
-    return all();
-}
-
-}  // namespace
-
-KeyRange numeric_keys() { return KeyRange(every_known_key()); }
-KeyRange keys() { return KeyRange(every_known_key().first(every_known_key().size() - std::size(double_keys))); }
-KeyRange twin_keys() { return KeyRange(every_known_key().last(std::size(double_keys))); }
-
-namespace {
-
 /// Whether the law or mechanism of this name that is known has a key.
 bool has_key(ModuleKind kind, std::string_view name, std::string_view key) {
     auto const in = [&](std::span<Key const> own) { return std::ranges::find(own, key, &Key::name) != own.end(); };
@@ -109,6 +94,11 @@ bool has_key(ModuleKind kind, std::string_view name, std::string_view key) {
 }
 
 }  // namespace
+
+std::span<Key const* const> every_key() {
+    static OfAllKnown<std::vector<Key const*>> all(&make_every_key);
+    return all();
+}
 
 std::string objection_to(ModuleKind kind, KernelModule const& module) {
     bool const is_law = kind == ModuleKind::law;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,44 +21,17 @@ bool counts_for(Key const& key, Mechanism mechanism);
 /// The same with the scene's law.
 bool counts_for(Key const& key, Parts const& parts);
 
-/// Keys as they stand where they are defined, which is for good.
-class KeyRange {
-public:
-    class Iterator {
-    public:
-        using difference_type = std::ptrdiff_t;
-        using value_type = Key;
-        Iterator() = default;
-        explicit Iterator(Key const* const* at) : at_(at) {}
-        Key const& operator*() const { return **at_; }
-        Key const* operator->() const { return *at_; }
-        Iterator& operator++() {
-            ++at_;
-            return *this;
-        }
-        Iterator operator++(int) { return Iterator(at_++); }
-        friend bool operator==(Iterator, Iterator) = default;
+/// Every numeric key as it stands where it is defined, which is for good: one per input, in the order of `Inputs`, with what laws and mechanisms have of
+/// their own, those of modules too; and behind them those that set two inputs at once, joint.clearance and contact.young_modulus.
+std::span<Key const* const> every_key();
+inline constexpr std::size_t twin_count = 2;
 
-    private:
-        Key const* const* at_ = nullptr;
-    };
-
-    explicit KeyRange(std::span<Key const* const> keys) : keys_(keys) {}
-    Iterator begin() const { return Iterator(keys_.data()); }
-    Iterator end() const { return Iterator(keys_.data() + keys_.size()); }
-    std::size_t size() const { return keys_.size(); }
-    Key const& operator[](std::size_t i) const { return *keys_[i]; }
-
-private:
-    std::span<Key const* const> keys_;
-};
-
-/// One key per input, in the order of `Inputs`, and what laws and mechanisms have of their own, those of modules too.
-KeyRange keys();
-/// The keys that set two inputs at once: joint.clearance, contact.young_modulus.
-KeyRange twin_keys();
-/// These behind those.
-KeyRange numeric_keys();
+inline auto keys_behind(std::span<Key const* const> pointers) {
+    return pointers | std::views::transform([](Key const* key) -> Key const& { return *key; });
+}
+inline auto keys() { return keys_behind(every_key().first(every_key().size() - twin_count)); }
+inline auto twin_keys() { return keys_behind(every_key().last(twin_count)); }
+inline auto numeric_keys() { return keys_behind(every_key()); }
 std::vector<std::string_view> numeric_key_names();
 /// One of them; nullptr when there is none.
 Key const* find_key(std::string_view dotted_name);
@@ -116,13 +90,8 @@ Range usual_range(Key const& key);
 /// What is unusual about a number, in words ("is 1 m (usually 1e-08 to 0.01 m); did you mean \"1 mm\"?"), or nothing.
 std::optional<std::string> unusual(Key const& key, double value, bool has_unit = false);
 
-/// The same of numbers that are usual each and not together: a clearance that is large beside the way, a fast crank pin.  The key is the
-/// one to blame.
-struct UnusualPair {
-    Key const* key;
-    std::string words;
-};
-std::optional<UnusualPair> unusual_pair(Inputs const& inputs, Parts const& parts);
+/// The same of numbers that are usual each and not together: a clearance that is large beside the way, a fast crank pin.  With the key to blame.
+std::optional<std::pair<Key const*, std::string>> unusual_pair(Inputs const& inputs, Parts const& parts);
 
 /// What `defect` found: the key to blame, and another one whose value it clashes with (nullptr if none).
 struct Defect {

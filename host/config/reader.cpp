@@ -7,7 +7,6 @@
 
 #include "host/base/shown.hpp"
 #include "host/base/suggest.hpp"
-#include "host/config/key_reference.hpp"
 #include "host/config/scene_text.hpp"
 
 namespace slideway {
@@ -19,7 +18,7 @@ bool contains(std::span<std::string_view const> names, std::string_view name) {
 
 void check_known(Node const& root) {
     std::vector<std::string_view> tables, keys;
-    for (KeyReference const& key : known_keys()) {
+    for (Setting const& key : known_keys()) {
         keys.push_back(key.name);
         // The keys of a table stand together.
         if (!key.table().empty() && (tables.empty() || tables.back() != key.table())) tables.push_back(key.table());
@@ -95,11 +94,8 @@ void check_inputs(Node const& root, Scene const& scene) {
 
 void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows) {
     for (Setting const& row : rows) {
-        Node const* const node = row.is_bound() && row.table() == table ? root.find_path(row.name) : nullptr;
-        if (node == nullptr) continue;
-        if (row.number != nullptr) row.number(scene) = read_number(*node, row);
-        if (row.count != nullptr) row.count(scene) = read_count(*node, row);
-        if (row.truth != nullptr) row.truth(scene) = read_boolean(*node);
+        Node const* const node = row.value.read != nullptr && row.table() == table ? root.find_path(row.name) : nullptr;
+        if (node != nullptr) row.value.read(scene, *node, row);
     }
 }
 

@@ -109,7 +109,7 @@ std::vector<double> uniform_times(double end_time, std::size_t count);
 /// Warns of numbers that no mechanism has, likely slips of a unit (docs/troubleshooting.md): given ones, rows of a table, draws, columns of a sweep.
 void warn_of_unusual(Node const& root, Scene& scene);
 
-/// What is given of the bound settings of a table.
+/// What is given of the keys of a table that know their places.
 void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows = settings());
 
 /// Refuses what `node` gives, or the study whose default it is; `key` is the dotted name.
@@ -144,7 +144,6 @@ std::vector<double> read_list(Node const& list, Key const& key, std::uint64_t mo
 /// Of a setting: within its limits.
 double read_number(Node const& node, Setting const& setting);
 std::uint64_t read_count(Node const& node, Setting const& setting);
-std::size_t read_choice(Node const& node, Setting const& setting);
 
 /// An integer (or a real number that is one) from low to high.
 std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high);
@@ -153,7 +152,7 @@ std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64
 std::optional<double> given_number(Node const& root, std::string_view name);
 std::optional<std::uint64_t> given_count(Node const& root, std::string_view name);
 template <class Choice> void read_given(Node const& root, std::string_view name, Choice& to) {
-    if (Node const* const node = root.find_path(name)) to = static_cast<Choice>(read_choice(*node, setting(name)));
+    if (Node const* const node = root.find_path(name)) read_value(*node, setting(name), to);
 }
 
 bool read_boolean(Node const& node);

@@ -51,37 +51,35 @@ void read_neighbours(Node const& root, Scene& scene) {
     chaos.exponents = count != nullptr ? static_cast<int>(read_count(*count, setting("study.exponents").what, least, most)) : 1;
     Node const *const d0 = root.find_path("study.d0"), *const lower = root.find_path("study.d0_lower"),
                       *const upper = root.find_path("study.d0_upper");
-    ChaosSettings given;
-    given.d0 = given_number(root, "study.d0").value_or(given.d0);
-    given.d0_lower = given_number(root, "study.d0_lower").value_or(std::max(given.d0 * 0.3, 1e-14));
-    given.d0_upper = given_number(root, "study.d0_upper").value_or(std::min(given.d0 * 3, 1.0));
+    if (lower == nullptr) chaos.d0_lower = std::max(chaos.d0 * 0.3, 1e-14);
+    if (upper == nullptr) chaos.d0_upper = std::min(chaos.d0 * 3, 1.0);
     auto const name_d0 = [&](std::string_view side) {
-        return Problem{fmt::format("not {} study.d0, {}", side, given.d0), "use d0_lower < d0 < d0_upper"};
+        return Problem{fmt::format("not {} study.d0, {}", side, chaos.d0), "use d0_lower < d0 < d0_upper"};
     };
-    if (lower != nullptr && !(given.d0_lower < given.d0)) refuse(*lower, name_d0("below"));
-    if (upper != nullptr && !(given.d0_upper > given.d0)) refuse(*upper, name_d0("above"));
-    given.dt = read_dt(root, scene);
+    if (lower != nullptr && !(chaos.d0_lower < chaos.d0)) refuse(*lower, name_d0("below"));
+    if (upper != nullptr && !(chaos.d0_upper > chaos.d0)) refuse(*upper, name_d0("above"));
+    chaos.dt = read_dt(root, scene);
 
     auto const warn = [&](Node const* node, std::string_view why) {
         if (node != nullptr) scene.warnings.push_back(fmt::format("{} has no effect with {}", node->name, why));
     };
-    if (given.d0 < 1e-9) {
+    if (chaos.d0 < 1e-9) {
         scene.warnings.push_back(fmt::format(
             "study.d0 is {} and below 1e-9 rounding shows: in impacts an offset's part in the positions is 1e-5 of it",
-            given.d0));
+            chaos.d0));
     }
     if (chaos.exponents == 0) {
         for (Node const* const node : {d0, lower, upper, given_of(root, dt_keys)}) warn(node, "study.exponents = 0");
+        ChaosSettings const none;
+        chaos.d0 = none.d0, chaos.d0_lower = none.d0_lower, chaos.d0_upper = none.d0_upper, chaos.dt = none.dt;
         return;
     }
     if (chaos.exponents > 1) {
         for (Node const* const node : {lower, upper}) {
             warn(node, "several exponents: their neighbours are rescaled every time");
         }
-        given.d0_lower = given.d0 * 0.3;
-        given.d0_upper = given.d0 * 3;
+        chaos.d0_lower = chaos.d0 * 0.3, chaos.d0_upper = chaos.d0 * 3;
     }
-    chaos.d0 = given.d0, chaos.d0_lower = given.d0_lower, chaos.d0_upper = given.d0_upper, chaos.dt = given.dt;
 }
 
 /// A block's members stop equally often: what they count by must not differ between them.

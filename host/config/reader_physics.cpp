@@ -228,11 +228,11 @@ void tell_of_contacts(Node const& root, Scene& scene) {
     if (scene.parts.rigid || !info(scene.parts.mechanism).spatial) return;
     LawInfo const& law = info(scene.parts.law);
     if (root.find_path("contact.law") == nullptr) {
-        scene.unsaid.push_back(fmt::format("contact.law is not given and is \"{}\": {}; name it", law.name, law.words));
+        scene.warnings.push_back(fmt::format("contact.law is not given and is \"{}\": {}; name it", law.name, law.words));
     }
     bool const has_rates = has_group(law.groups, KeyGroup::surfaces), has_others = has_group(law.groups, KeyGroup::point_damping);
     if (scene.parts.damping != Damping::point || !has_rates || has_others || root.find_path("contact.chi_surface") != nullptr) return;
-    scene.unsaid.push_back(fmt::format("neither contact.restitution nor contact.chi_surface is given: contacts of \"{}\" then take no energy, and what "
+    scene.warnings.push_back(fmt::format("neither contact.restitution nor contact.chi_surface is given: contacts of \"{}\" then take no energy, and what "
                                        "touches rings for ever; give one of the two", law.name));
 }
 
@@ -267,7 +267,6 @@ bool bounces_for_ever(Scene const& scene) {
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);
-    read_given(root, "integrator.method", settings.method);
     Node const* const step = root.find_path("integrator.step");
     if (has_fixed_step(settings.method) && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
@@ -275,7 +274,7 @@ void read_integrator(Node const& root, Scene& scene) {
     // The errors of dopri5's bounces have one sign: they would add up (docs/integrators.md).
     if (settings.method == Method::automatic && bounces_for_ever(scene)) {
         settings.method = Method::verner65;
-        scene.unsaid.push_back("nothing takes energy from what bounces here, and errors of impacts are never forgotten: integrator.method \"auto\" is \"verner65\"");
+        scene.warnings.push_back("nothing takes energy from what bounces here, and errors of impacts are never forgotten: integrator.method \"auto\" is \"verner65\"");
     }
     if ((set_of(settings.method) & methods_of(scene.parts)) == 0) {
         refuse(*root.find_path("integrator.method"), lacking(settings.method, scene.parts));

@@ -117,7 +117,6 @@ void read_section(Node const& root, Scene& scene) {
         return read_phase(root, scene);
     }
     read_section_table(*table, scene);
-    scene.chaos.max_crossings = given_count(root, "study.max_crossings").value_or(scene.chaos.max_crossings);
 }
 
 }  // namespace slideway

@@ -67,7 +67,7 @@ void read_steps(Node const& root, Scene& scene, RunLength const& length) {
     for (std::string_view const name : {"integrator.max_step", "integrator.stiff_max_step"}) {
         Setting const& of = setting(name);
         if (!has_effect(of, settings.method, scene.parts)) continue;
-        double const largest = of.number(scene);
+        double const largest = name == "integrator.max_step" ? settings.max_step : settings.stiff_max_step;
         check_largest_step(root, of, largest, length);
         least = std::min(least, length.longest / largest);
     }

@@ -187,7 +187,6 @@ void read_study(Node const& root, Scene& scene) {
     read_given(root, "study.kind", scene.study);
     check_keys(root, scene.study);
     read_bound(root, "study", scene);
-    scene.verify = given_count(root, "study.verify");
     read_design(root, scene);
     if (scene.study == StudyKind::sweep) read_sweep(root, scene);
     if (!runs_to_end(scene.study)) read_chaos(root, scene);
@@ -198,6 +197,7 @@ void read_recording(Node const& root, Scene& scene) {
     EndTime const end = samples ? read_end_time(root, scene) : EndTime{run_length(scene).seconds, NAN};
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
+    if (samples) scene.chaos.span = {end.seconds, false};
     read_steps(root, scene, length);
     check_drive_is_resolved(root, scene, length.longest);
     Sampling const sampling = samples ? read_sampling(root, scene, end) : Sampling{};
@@ -218,7 +218,6 @@ void read_recording(Node const& root, Scene& scene) {
 }
 
 void read_store(Node const& root, Scene& scene) {
-    read_given(root, "study.store", scene.store);
     if (scene.stores_members()) return;
     Node const* const node = root.find_path("study.store");
     if (scene.design.kind == DesignKind::saltelli) {

@@ -105,7 +105,6 @@ void read_sweep(Node const& root, Scene& scene) {
     scene.chaos.values = list != nullptr ? read_list(*list, key, setting("study.points").most, "[\"0.1 mm\", \"0.2 mm\"]") : read_range(root, key);
     require_part(scene.parts, key);
     check_values(root, scene);
-    read_given(root, "study.start", scene.chaos.continued);
     if (!scene.chaos.continued) return;
     Node const& start = *root.find_path("study.start");
     if (key.name.starts_with("initial.") || key.name == "mechanism.start_angle") {

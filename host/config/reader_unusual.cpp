@@ -46,8 +46,8 @@ public:
     /// Of numbers together, where none of them is unusual alone.
     bool check_pair(std::string const& where, Inputs const& inputs) {
         auto const found = unusual_pair(inputs, scene_.parts);
-        bool const known = found && std::ranges::any_of(told_, [&](Key const* key) { return key->overlaps(*found->key); });
-        if (found && !known) warn(where.empty() ? place_of(*found->key) : where, found->key->name, *found->key, found->words);
+        bool const known = found && std::ranges::any_of(told_, [&](Key const* key) { return key->overlaps(*found->first); });
+        if (found && !known) warn(where.empty() ? place_of(*found->first) : where, found->first->name, *found->first, found->second);
         return found.has_value();
     }
 

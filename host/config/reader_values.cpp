@@ -78,6 +78,12 @@ std::uint64_t read_count(Node const& node, Setting const& setting) {
     return read_count(node, setting.what, setting.least, setting.most);
 }
 
+void read_value(Node const& node, Setting const& row, double& to) { to = read_number(node, row); }
+void read_value(Node const& node, Setting const& row, std::uint64_t& to) { to = read_count(node, row); }
+void read_value(Node const& node, Setting const& row, std::optional<std::uint64_t>& to) { to = read_count(node, row); }
+void read_value(Node const& node, Setting const& row, bool& to) { to = row.type == Setting::Type::truth ? read_boolean(node) : read_choice(node, row) != 0; }
+void read_value(Node const& node, Setting const& row, Span& to) { to = {read_number(node, row), row.unit == "1"}; }
+
 std::size_t read_choice(Node const& node, Setting const& setting) { return read_choice(node, setting.what, setting.all_choices()); }
 
 std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high) {

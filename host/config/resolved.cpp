@@ -1,14 +1,14 @@
 // A scene as TOML with every key in SI units.  Numbers are the shortest that read back to the same double.
+#include "host/config/resolved.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "host/config/descriptors.hpp"
 #include "host/config/outputs.hpp"
-#include "host/config/scene.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
 #include "host/sampling/distribution.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 bool is_written(Key const& key, Scene const& scene) {
     Parts const& parts = scene.parts;
-    if (!counts_for(key, parts)) return false;
+    if (key.twin != nullptr || !counts_for(key, parts)) return false;
     if (is_idle_source(key, parts, given_or_varied(scene)) && key.get(scene.inputs) == key.preset) return false;
     bool const restitution = parts.damping == Damping::restitution;
     if (key.name.starts_with("way.")) return parts.misaligned_way;
@@ -27,87 +27,8 @@ bool is_written(Key const& key, Scene const& scene) {
     return !restitution || std::ranges::count(rates_of_damping, key.name) == 0;
 }
 
-/// Of what is derived from other keys: "# slider_mass = 0.1872  # kg, derived: density x slider_length x way_width x way_depth".  A comment, so that
-/// it is derived anew where they vary.
-std::string derived_line(std::string_view name, Key const& key, Scene const& scene, double value) {
-    std::string const words = derivation_of(key, scene.parts, scene.inputs);
-    if (std::isnan(value)) return fmt::format("# {}  # derived: {}\n", name, words);
-    std::string const unit = unit_comment(key.unit);
-    return fmt::format("# {} = {}{}derived: {}\n", name, toml_number(value), unit.empty() ? "  # " : unit + ", ", words);
-}
-
-/// Keys of one table.
-std::string physics_table(Scene const& scene, Inputs const& complete, std::string_view table, std::string_view first) {
-    std::string text(first);
-    for (Key const& key : keys()) {
-        auto const dot = key.name.find('.');
-        if (key.name.substr(0, dot) != table || !is_written(key, scene)) continue;
-        std::string_view const name = key.name.substr(dot + 1);
-        bool const given = !std::isnan(key.get(scene.inputs));
-        text += given ? number_line(name, key.get(scene.inputs), key.unit) : derived_line(name, key, scene, key.get(complete));
-    }
-    return text.empty() ? text : fmt::format("\n[{}]\n{}", table, text);
-}
-
 /// Of a module the hash of its source: another one is another scene.
 std::string source_comment(OwnModule const* module) { return module == nullptr ? std::string() : fmt::format("  # source {}", module->source); }
-
-std::string quantities_text(Scene const& scene) {
-    std::string text;
-    auto const add = [&](std::string_view name) { text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name); };
-    Outputs const& outputs = outputs_of(scene.parts.mechanism);
-    for (QuantityInfo const& quantity : selected(outputs.quantities, scene.quantities)) add(quantity.name);
-    for (SeriesInfo const& series : selected(outputs.series, scene.series & ~info(scene.parts.mechanism).always)) add(series.name);
-    return text;
-}
-
-/// Of a bound setting: "max_step = 0.001  # s".
-std::string line_of(Setting const& row, Scene const& scene) {
-    return fmt::format("{} = {}{}\n", row.key(), value_text(row, scene), unit_comment(row.unit));
-}
-
-/// Only what counts with the scene's method.
-std::string integrator_table(Scene const& scene) {
-    std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(scene.integrator.method));
-    for (Setting const& row : settings()) {
-        if (row.table() == "integrator" && row.is_bound() && has_effect(row, scene.integrator.method, scene.parts)) text += line_of(row, scene);
-    }
-    return text;
-}
-
-std::string span_line(Span const& span, std::string_view turns, std::string_view time) {
-    return span.revolutions ? number_line(turns, span.value, "1") : number_line(time, span.value, "s");
-}
-
-std::string section_line(SectionSurface const& section, Mechanism mechanism) {
-    using On = SectionSurface::On;
-    if (section.on == On::phase) return number_line("phase", section.level, "rad");
-    if (section.on == On::impacts) {
-        return fmt::format("section = {{ on = \"{}\", direction = \"{}\" }}\n", impacts_name, name_of(section.direction));
-    }
-    std::string const on = section.on == On::state
-                               ? std::string(state_info(info(mechanism), section.index).name)
-                               : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
-    return fmt::format("section = {{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}\n", on,
-                       toml_number(section.level), name_of(section.direction), section_unit(section, mechanism));
-}
-
-std::string neighbours_text(ChaosSettings const& chaos) {
-    std::string text = fmt::format("exponents = {}\n", chaos.exponents);
-    if (chaos.exponents == 0) return text;
-    text += number_line("d0", chaos.d0, "1");
-    if (chaos.exponents == 1) text += number_line("d0_lower", chaos.d0_lower, "1") + number_line("d0_upper", chaos.d0_upper, "1");
-    if (!chaos.dt.revolutions) return text + number_line("dt", chaos.dt.value, "s");
-    return text + fmt::format("rescalings_per_revolution = {:.0f}\n", std::round(1 / chaos.dt.value));
-}
-
-std::string sweep_text(ChaosSettings const& chaos) {
-    std::string text = fmt::format("parameter = \"{}\"\nvalues = [", chaos.parameter->name);
-    // Lines of a scene have a longest length.
-    for (double const value : chaos.values) text += fmt::format("\n    {},", toml_number(value));
-    text += fmt::format("\n]{}\n", unit_comment(chaos.parameter->unit));
-    return text + fmt::format("start = \"{}\"\n", setting("study.start").choices[chaos.continued ? 1 : 0]);
-}
 
 /// Lines of a scene have a longest length: long lists take several.
 std::string list_text(std::span<double const> values) {
@@ -127,127 +48,155 @@ std::string distribution_text(Distribution const& distribution, std::uint64_t le
     DistributionForm const& form = form_of(distribution.kind);
     std::string text = fmt::format("{{ dist = \"{}\"", form.name);
     for (DistributionArgument const& argument : form.arguments) {
-        text += fmt::format(
-            ", {} = {}", argument.name,
-            argument.member == nullptr ? list_text(distribution.list) : toml_number(distribution.*argument.member));
+        text += fmt::format(", {} = {}", argument.name,
+                            argument.member == nullptr ? list_text(distribution.list) : toml_number(distribution.*argument.member));
     }
     if (levels > 0 && form.has_levels()) text += fmt::format(", levels = {}", levels);
     return text + " }";
 }
 
-std::string variations_text(Scene const& scene) {
+/// What the resolved scene has of a key: a line, a comment of what is derived from others (so that it is derived anew where they vary), a table, or nothing.
+std::string lines_of(Setting const& row, Scene const& scene) {
+    bool const counts = (row.studies & set_of(scene.study)) != 0 && has_effect(row, scene.integrator.method, scene.parts);
+    if (row.value.text == nullptr || !counts || (row.is_said != nullptr && !row.is_said(scene))) return {};
+    std::string const text = row.value.text(scene, row);
+    if (text.empty()) return text;
+    if (row.type == Setting::Type::table && !text.starts_with('{')) return fmt::format("\n[{}]\n{}", row.name, text);
+    if (row.physics == nullptr || !std::isnan(row.physics->get(scene.inputs))) return fmt::format("{} = {}{}\n", row.key(), text, unit_comment(row.unit));
+    std::string const unit = text == "nan" ? std::string() : unit_comment(row.unit);
+    return fmt::format("# {}{}{}derived: {}\n", row.key(), text == "nan" ? std::string() : " = " + text, unit.empty() ? "  # " : unit + ", ",
+                       derivation_of(*row.physics, scene.parts, scene.inputs));
+}
+
+}  // namespace
+
+std::string resolved_toml(Scene const& scene, Settings keys) {
+    std::string text;
+    std::string_view table;
+    for (Setting const& row : keys) {
+        std::string const lines = lines_of(row, scene);
+        if (!lines.empty() && row.table() != table) text += fmt::format("\n[{}]\n", table = row.table());
+        text += lines;
+    }
+    return text;
+}
+
+std::string resolved_toml(Scene const& scene) { return resolved_toml(scene, known_keys()); }
+
+namespace resolved {
+
+std::string schema(Scene const&, Setting const&) { return "1"; }
+std::string title(Scene const& scene, Setting const&) { return toml_string(scene.title); }
+
+std::string folders(Scene const& scene, Setting const&) {
+    std::vector<std::string> quoted;
+    for (std::string const& folder : scene.modules) quoted.push_back(toml_string(folder));
+    return quoted.empty() ? std::string() : fmt::format("[{}]", fmt::join(quoted, ", "));
+}
+
+std::string mechanism(Scene const& scene, Setting const&) {
+    return fmt::format("\"{}\"{}", info(scene.parts.mechanism).name, source_comment(module_of(scene.parts.mechanism)));
+}
+
+std::string law(Scene const& scene, Setting const&) {
+    if (!info(scene.parts.mechanism).spatial && !scene.parts.rigid) return {};
+    return fmt::format("\"{}\"{}", contact_info(scene.parts).name, source_comment(scene.parts.rigid ? nullptr : module_of(scene.parts.law)));
+}
+
+std::string number(Scene const& scene, Setting const& row) {
+    if (!is_written(*row.physics, scene)) return {};
+    double const value = row.physics->get(complete_inputs(scene.inputs, info(scene.parts.mechanism)));
+    return std::isnan(value) ? "nan" : toml_number(value);
+}
+
+std::string samples(Scene const& scene, Setting const&) { return fmt::format("{}", scene.sample_times.size()); }
+
+std::string quantities(Scene const& scene, Setting const&) {
+    std::vector<std::string> names;
+    Outputs const& outputs = outputs_of(scene.parts.mechanism);
+    for (QuantityInfo const& quantity : selected(outputs.quantities, scene.quantities)) names.push_back(toml_string(quantity.name));
+    for (SeriesInfo const& series : selected(outputs.series, scene.series & ~info(scene.parts.mechanism).always)) names.push_back(toml_string(series.name));
+    return fmt::format("[{}]", fmt::join(names, ", "));
+}
+
+std::string phase(Scene const& scene, Setting const&) {
+    return scene.chaos.section.is_phase() ? toml_number(scene.chaos.section.level) : std::string();
+}
+
+std::string section(Scene const& scene, Setting const&) {
+    SectionSurface const& section = scene.chaos.section;
+    using On = SectionSurface::On;
+    if (section.is_phase()) return {};
+    std::string_view const direction = name_of(section.direction);
+    if (section.on == On::impacts) return fmt::format("{{ on = \"{}\", direction = \"{}\" }}", impacts_name, direction);
+    std::string const on = section.on == On::state ? std::string(state_info(info(scene.parts.mechanism), section.index).name)
+                                                   : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
+    return fmt::format("{{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}", on, toml_number(section.level), direction,
+                       section_unit(section, scene.parts.mechanism));
+}
+
+std::string exponents(Scene const& scene, Setting const&) { return fmt::format("{}", scene.chaos.exponents); }
+std::string history(Scene const& scene, Setting const&) { return fmt::format("{}", scene.chaos.history); }
+
+std::string rescalings(Scene const& scene, Setting const&) {
+    return scene.chaos.dt.revolutions ? fmt::format("{:.0f}", std::round(1 / scene.chaos.dt.value)) : std::string();
+}
+
+std::string parameter(Scene const& scene, Setting const&) { return fmt::format("\"{}\"", scene.chaos.parameter->name); }
+
+std::string values(Scene const& scene, Setting const&) {
+    std::string text = "[";
+    // Lines of a scene have a longest length.
+    for (double const value : scene.chaos.values) text += fmt::format("\n    {},", toml_number(value));
+    return text + "\n]" + unit_comment(scene.chaos.parameter->unit);
+}
+
+std::string base(Scene const& scene, Setting const&) {
+    return scene.design.kind == DesignKind::saltelli ? fmt::format("{}", scene.design.base) : std::string();
+}
+
+/// The checksum tells a changed table from the one that was run.
+std::string member_table(Scene const& scene, Setting const&) {
+    if (scene.design.kind != DesignKind::table) return {};
+    MemberTable const& table = *scene.design.table;
+    return fmt::format("{}  # {} rows, FNV-1a {:016x}", toml_string(table.path), table.rows(), table.checksum);
+}
+
+std::string variations(Scene const& scene, Setting const&) {
     std::string text;
     for (std::size_t i = 0; i < scene.variations.size(); ++i) {
         Variation const& variation = scene.variations[i];
         if (variation.column != Variation::no_column) continue;
         std::uint64_t const levels = scene.design.kind == DesignKind::grid ? scene.design.levels.at(i) : 0;
-        text += fmt::format("\"{}\" = {}{}\n", variation.key->name, distribution_text(variation.distribution, levels),
-                            unit_comment(variation.key->unit));
+        text += fmt::format("\"{}\" = {}{}\n", variation.key->name, distribution_text(variation.distribution, levels), unit_comment(variation.key->unit));
     }
-    return text.empty() ? text : "\n[study.vary]\n" + text;
+    return text;
 }
 
-std::string correlation_text(Scene const& scene) {
+std::string correlation(Scene const& scene, Setting const&) {
     Correlation const& correlation = scene.design.correlation;
     std::size_t const n = correlation.variations.size();
-    if (n == 0) return {};
     std::string keys, rows;
     for (std::size_t i = 0; i < n; ++i) {
         keys += fmt::format("\n    \"{}\",", scene.variations[correlation.variations[i]].key->name);
         rows += fmt::format("\n    {},", list_text(std::span(correlation.matrix).subspan(i * n, n)));
     }
-    return fmt::format("\n[study.correlation]\nkeys = [{}\n]\nmatrix = [{}\n]\n", keys, rows);
+    return n == 0 ? std::string() : fmt::format("keys = [{}\n]\nmatrix = [{}\n]\n", keys, rows);
 }
 
-std::string_view unit_of(Limit const& limit, Mechanism mechanism) {
-    for (QuantityInfo const& info : outputs_of(mechanism).quantities) {
-        if (limit.quantity == info.name) return info.unit;
-    }
-    return "1";
-}
-
-std::string limits_text(Scene const& scene) {
+std::string limits(Scene const& scene, Setting const&) {
     std::string text;
     for (Limit const& limit : scene.limits) {
-        bool const low = std::isfinite(limit.low), high = std::isfinite(limit.high);
-        text += fmt::format(
-            "\"{}\" = {{ {}{}{} }}{}\n", limit.name(),
-            low ? fmt::format("min = {}", toml_number(limit.low)) : std::string(), low && high ? ", " : "",
-            high ? fmt::format("max = {}", toml_number(limit.high)) : std::string(), unit_comment(unit_of(limit, scene.parts.mechanism)));
-    }
-    return text.empty() ? text : "\n[study.limits]\n" + text;
-}
-
-/// Lines of [study]: design, base, table.
-std::string design_text(Scene const& scene) {
-    Design const& design = scene.design;
-    std::string text = fmt::format("design = \"{}\"\n", name_of(design.kind));
-    if (design.kind == DesignKind::saltelli) text += fmt::format("base = {}\n", design.base);
-    if (design.kind == DesignKind::table) {
-        // The checksum tells a changed table from the one that was run.
-        MemberTable const& table = *design.table;
-        text += fmt::format("table = {}  # {} rows, FNV-1a {:016x}\n", toml_string(table.path), table.rows(),
-                            table.checksum);
+        auto const& quantities = outputs_of(scene.parts.mechanism).quantities;
+        auto const of = std::ranges::find_if(quantities, [&](QuantityInfo const& one) { return limit.quantity == one.name; });
+        std::vector<std::string> ends;
+        if (std::isfinite(limit.low)) ends.push_back("min = " + toml_number(limit.low));
+        if (std::isfinite(limit.high)) ends.push_back("max = " + toml_number(limit.high));
+        text += fmt::format("\"{}\" = {{ {} }}{}\n", limit.name(), fmt::join(ends, ", "), unit_comment(of->unit));
     }
     return text;
 }
 
-/// [study.vary], [study.correlation] and [study.limits], where the scene has them.
-std::string members_text(Scene const& scene) {
-    return variations_text(scene) + correlation_text(scene) + limits_text(scene);
-}
-
-/// Only what counts in the scene's study.
-std::string study_table(Scene const& scene) {
-    ChaosSettings const& chaos = scene.chaos;
-    std::string text = fmt::format("\n[study]\nkind = \"{}\"\n", name_of(scene.study));
-    for (Setting const& row : settings()) {
-        if (row.table() == "study" && row.is_bound() && (row.studies & set_of(scene.study)) != 0) text += line_of(row, scene);
-    }
-    if (runs_to_end(scene.study)) {
-        text += number_line("duration", scene.integrator.end_time, "s") + fmt::format("samples = {}\n", scene.sample_times.size());
-    } else {
-        text += span_line(chaos.transient, "transient_revolutions", "Ttr");
-        text += span_line(chaos.span, "revolutions", "duration");
-    }
-    if (scene.verify) text += fmt::format("verify = {}\n", *scene.verify);
-    if (!scene.stores_members()) text += fmt::format("store = \"{}\"\n", name_of(scene.store));
-    if (scene.study == StudyKind::sweep) text += sweep_text(chaos);
-    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep)
-        text += section_line(chaos.section, scene.parts.mechanism);
-    if (chaos.section.on != SectionSurface::On::phase) text += fmt::format("max_crossings = {}\n", chaos.max_crossings);
-    if (scene.study == StudyKind::lyapunov || scene.study == StudyKind::sweep) text += neighbours_text(chaos);
-    if (scene.study == StudyKind::lyapunov) text += fmt::format("history = {}\n", chaos.history);
-    return text + fmt::format("quantities = [{}]\n", quantities_text(scene)) + design_text(scene);
-}
-
-}  // namespace
-
-std::string resolved_toml(Scene const& scene) {
-    Inputs const complete = complete_inputs(scene.inputs, info(scene.parts.mechanism));
-    std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(scene.title));
-    MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    if (!scene.modules.empty()) {
-        std::string folders;
-        for (std::string const& folder : scene.modules) folders += fmt::format("{}{}", folders.empty() ? "" : ", ", toml_string(folder));
-        text += fmt::format("\n[modules]\nsearch = [{}]\n", folders);
-    }
-    std::string kind = fmt::format("kind = \"{}\"{}\n", mechanism.name, source_comment(module_of(scene.parts.mechanism)));
-    if (mechanism.free_crank) {
-        kind += fmt::format("crank = \"{}\"\n", scene.parts.free_crank ? "free" : "driven");
-    }
-    text += physics_table(scene, complete, "mechanism", kind);
-    text += physics_table(scene, complete, "joint", "") + physics_table(scene, complete, "material", "");
-    if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
-    text += physics_table(scene, complete, "contact",
-                          mechanism.spatial || scene.parts.rigid
-                              ? fmt::format("law = \"{}\"{}\n", contact_info(scene.parts).name, scene.parts.rigid ? "" : source_comment(module_of(scene.parts.law)))
-                              : std::string());
-    text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
-    text += physics_table(scene, complete, "initial", "");
-    text += integrator_table(scene);
-    text += study_table(scene);
-    return text + members_text(scene);
-}
+}  // namespace resolved
 
 }  // namespace slideway

@@ -46,12 +46,6 @@ std::string label_of(Scene const& scene, std::uint64_t member) {
     return table != nullptr && member < table->labels.size() ? table->labels[static_cast<std::size_t>(member)] : std::string();
 }
 
-std::vector<std::string> all_warnings(Scene const& scene) {
-    auto all = scene.unsaid;
-    all.insert(all.end(), scene.warnings.begin(), scene.warnings.end());
-    return all;
-}
-
 Inputs given_or_varied(Scene const& scene) {
     Inputs inputs = scene.inputs;
     for (Variation const& variation : scene.variations) variation.key->set(inputs, 1);

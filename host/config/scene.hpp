@@ -61,6 +61,7 @@ struct SectionSurface {
         0;  // crank angle, or phase of the carriage [rad], any turn; else the state's unit, or [m] of the gap
     CrossingDirection direction = CrossingDirection::rising;  // a phase has none
 
+    bool is_phase() const { return on == On::phase; }
     friend bool operator==(SectionSurface const&, SectionSurface const&) = default;
 };
 
@@ -118,8 +119,7 @@ struct Scene {
     std::vector<Limit> limits;               // [study.limits]
     /// Members that run again to check the others, whatever it costs; none: what a tenth of the study's work allows.
     std::optional<std::uint64_t> verify;
-    std::vector<std::string> warnings;       // one line each: what was given and has no effect
-    std::vector<std::string> unsaid;         // one line each: what was not given and matters
+    std::vector<std::string> warnings;       // one line each: what was given and has no effect, and what was not given and matters
 
     bool stores_members() const { return store == Store::members; }
 };
@@ -169,8 +169,6 @@ struct DerivedNumber {
 std::vector<DerivedNumber> derived_numbers(Scene const& scene);
 /// The scene's numbers, those that members vary in among the given ones, as 1.
 Inputs given_or_varied(Scene const& scene);
-/// What is told of a scene before it runs: what was not given and matters, what was given and has no effect.
-std::vector<std::string> all_warnings(Scene const& scene);
 
 /// The scene with every key written out in SI units, as TOML that reads back to the same scene.
 std::string resolved_toml(Scene const& scene);

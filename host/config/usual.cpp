@@ -88,7 +88,7 @@ std::optional<std::string> unusual(Key const& key, double value, bool has_unit) 
     return fmt::format("is {} (usually {}){}", with_unit(value, key.unit), usually, has_unit ? "; is it meant?" : proposal(key, value));
 }
 
-std::optional<UnusualPair> unusual_pair(Inputs const& inputs, Parts const& parts) {
+std::optional<std::pair<Key const*, std::string>> unusual_pair(Inputs const& inputs, Parts const& parts) {
     Inputs const in = complete_inputs(inputs, info(parts.mechanism));
     bool const spatial = info(parts.mechanism).spatial;
     double const smallest = spatial ? std::min(in.way_width, in.way_depth) : std::min(in.slider_height, in.slider_length);
@@ -97,14 +97,14 @@ std::optional<UnusualPair> unusual_pair(Inputs const& inputs, Parts const& parts
         Key const& key = *one;
         double const clearance = key.get(in);
         if (!counts_for(key, parts) || !(clearance > smallest / 10)) continue;
-        return UnusualPair{&key, fmt::format("is {} (usually less than a tenth of the {}, {:.4g} m); is its unit right?", with_unit(clearance, key.unit),
+        return std::pair{&key, fmt::format("is {} (usually less than a tenth of the {}, {:.4g} m); is its unit right?", with_unit(clearance, key.unit),
                                              spatial ? "way" : "slider", smallest / 10)};
     }
     constexpr double fastest = 1000;  // [m/s]
     static Key const& turning = *find_key("mechanism.crank_speed");
     double const speed = std::abs(in.crank_speed) * in.crank_length;
     if (!counts_for(turning, parts) || !(speed > fastest)) return {};
-    return UnusualPair{&turning, fmt::format("is {} (the crank pin then moves at {:.4g} m/s, usually up to {} m/s); is its unit right?",
+    return std::pair{&turning, fmt::format("is {} (the crank pin then moves at {:.4g} m/s, usually up to {} m/s); is its unit right?",
                                              with_unit(in.crank_speed, turning.unit), speed, fastest)};
 }
 

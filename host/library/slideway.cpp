@@ -225,7 +225,7 @@ std::uint64_t Ensemble::members() const { return member_count(state_->scene); }
 std::string Ensemble::resolved() const { return resolved_toml(state_->scene); }
 std::vector<std::string> Ensemble::warnings(bool of_starts) const {
     return told([&] {
-        std::vector<std::string> warnings = all_warnings(state_->scene);
+        std::vector<std::string> warnings = state_->scene.warnings;
         if (!of_starts) return warnings;
         if (auto wrong = impossible_starts(state_->scene, best_isa(state_->scene.parts))) warnings.push_back(*std::move(wrong));
         return warnings;

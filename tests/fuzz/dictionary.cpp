@@ -8,7 +8,7 @@
 int main() {
     using namespace slideway;
     std::set<std::string> words;
-    for (KeyReference const& key : known_keys()) {
+    for (Setting const& key : known_keys()) {
         std::string const name(key.name);
         auto const dot = name.rfind('.');
         words.insert(name);
@@ -16,7 +16,7 @@ int main() {
             words.insert("[" + name.substr(0, dot) + "]\n");
             words.insert(name.substr(dot + 1) + " = ");
         }
-        for (std::string_view const choice : key.choices) words.insert("\"" + std::string(choice) + "\"");
+        for (std::string_view const choice : key.all_choices()) words.insert("\"" + std::string(choice) + "\"");
         if (!key.unit.empty()) words.insert(" " + std::string(key.unit));
     }
     for (std::string const& word : words) {

@@ -91,8 +91,8 @@ TEST_F(ListedKeys, AreDescribedOnTheirPage) {
 TEST_F(ListedKeys, OfANewRowAreEverywhere) {
     using Type = Setting::Type;
     Setting const trial{.name = "integrator.trial_tolerance", .type = Type::number, .unit = "s", .meaning = "of a trial", .preset = "", .what = "trial",
-                        .range = {0, 2, false}, .number = [](Scene& scene) -> double& { return scene.integrator.rtol; }};
-    auto const references = key_references(Settings(&trial, 1));
+                        .range = {0, 2, false}, .value = at<&Scene::integrator, &IntegratorSettings::rtol>};
+    auto const references = with_physics(Settings(&trial, 1));
     Json const json = Json::parse(keys_json(references)), schema = Json::parse(scene_schema(references));
     bool found = false;
     for (Json const& key : json["keys"]) found = found || (key["name"] == trial.name && key["maximum"] == 2 && key["default"] == "1e-06");

@@ -39,7 +39,7 @@ TEST(CommandLine, HasItsCommandsAndOptionsInTheManPage) {
         }
         for (Example const& example : command.examples) EXPECT_TRUE(has(page, roff(example.line.substr(0, 12)))) << example.line;
     }
-    for (KeyReference const& key : known_keys()) EXPECT_TRUE(has(page, "\n\\fB" + std::string(key.name) + "\\fR")) << key.name;
+    for (Setting const& key : known_keys()) EXPECT_TRUE(has(page, "\n\\fB" + std::string(key.name) + "\\fR")) << key.name;
     for (ExitCode const& code : exit_codes) EXPECT_TRUE(has(page, fmt::format("\n\\fB{}\\fR\n", code.number))) << code.number;
 }
 
@@ -68,9 +68,9 @@ TEST(CommandLine, HasItsCommandsOptionsAndKeysInCompletions) {
             for (std::string const& name : option.names) EXPECT_NE(option.positional, offers({command.name, "-"}, name)) << command.name << " " << name;
         }
     }
-    for (KeyReference const& key : known_keys()) {
+    for (Setting const& key : known_keys()) {
         EXPECT_TRUE(offers({"run", "--set", ""}, fmt::format("{}=", key.name)));
-        for (std::string_view const choice : key.choices) EXPECT_TRUE(offers({"run", "--set", fmt::format("{}=", key.name)}, fmt::format("{}={}", key.name, choice)));
+        for (std::string_view const choice : key.all_choices()) EXPECT_TRUE(offers({"run", "--set", fmt::format("{}=", key.name)}, fmt::format("{}={}", key.name, choice)));
     }
     EXPECT_EQ(candidates(commands, std::vector<std::string>{"nonsense", ""}), "");
     EXPECT_EQ(candidates(commands, std::vector<std::string>{"run", "--member=1"}), "");

@@ -42,15 +42,15 @@ TEST(SceneLaws, AreTheBedWhereNobodyNamesOneAndSaySo) {
     std::string const which = "contact.law is not given and is \"foundation\": an elastic bed over each face, no modes; name it";
     std::string const rings = "neither contact.restitution nor contact.chi_surface is given: contacts of \"foundation\" then take no energy, and what "
                               "touches rings for ever; give one of the two";
-    EXPECT_EQ(plain.unsaid, (std::vector<std::string>{which, rings}));
-    EXPECT_EQ(read("schema = 1\n[contact]\nrestitution = 0.6").unsaid, std::vector<std::string>{which});
-    EXPECT_EQ(read(with_law("foundation")).unsaid, std::vector<std::string>{rings});
+    EXPECT_EQ(plain.warnings, (std::vector<std::string>{which, rings}));
+    EXPECT_EQ(read("schema = 1\n[contact]\nrestitution = 0.6").warnings, std::vector<std::string>{which});
+    EXPECT_EQ(read(with_law("foundation")).warnings, std::vector<std::string>{rings});
     // Of who says 0 or draws it nobody thinks that he forgot it; others have damping of their own, or have none to forget.
     std::string const varied = "[study]\nmembers = 2\nduration = 1\n[study.vary]\n\"contact.restitution\" = { dist = \"unif\", low = 0.5, high = 0.7 }";
     for (auto const& scene : {with_law("foundation", "restitution = 0.6"), with_law("foundation", "chi_surface = 0"), with_law("foundation", varied),
                               with_law("paper"), with_law("conservative"), with_law("kelvin_voigt"),
                               std::string("schema = 1\n[mechanism]\nkind = \"planar_slider_crank\"")}) {
-        EXPECT_EQ(read(scene).unsaid, std::vector<std::string>{}) << scene;
+        EXPECT_EQ(read(scene).warnings, std::vector<std::string>{}) << scene;
     }
 }
 

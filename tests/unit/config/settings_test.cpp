@@ -21,9 +21,7 @@ TEST(SceneSettings, AreListedOnceAndSayWhatTheyAre) {
         EXPECT_NE(row.methods, 0u) << row.name;
         EXPECT_EQ(row.type == Type::choice, !row.all_choices().empty()) << row.name;
         EXPECT_LE(row.least, row.most) << row.name;
-        EXPECT_EQ(row.number != nullptr, row.is_bound() && row.type == Type::number) << row.name;
-        EXPECT_EQ(row.count != nullptr, row.is_bound() && row.type == Type::count) << row.name;
-        EXPECT_EQ(row.truth != nullptr, row.is_bound() && row.type == Type::truth) << row.name;
+        EXPECT_TRUE(row.value.read == nullptr || row.value.text != nullptr) << row.name << " is read and never written";
         if (row.table() == "study") continue;
         EXPECT_EQ(row.studies, study_sets::all) << row.name;
     }
@@ -43,23 +41,23 @@ TEST(SceneSettings, ThatSayTheSameSayItOfEachOther) {
 TEST(SceneSettings, HaveTheDefaultsOfAScene) {
     Scene const bare = scene_of("schema = 1");
     for (Setting const& row : settings()) {
-        if (!row.is_bound() || !row.preset.empty()) continue;
-        EXPECT_EQ(preset_text(row), value_text(row, bare)) << row.name;
+        if (row.value.text == nullptr || !row.preset.empty()) continue;
+        EXPECT_EQ(preset_text(row), row.value.text(bare, row)) << row.name;
     }
 }
 
 /// A row that no scene has.
 Setting const trial{.name = "integrator.trial_tolerance", .type = Type::number, .unit = "s", .meaning = "of a trial", .preset = "",
-                    .what = "trial tolerance", .range = {0, 1, false}, .number = [](Scene& scene) -> double& { return scene.integrator.fixed_step; }};
+                    .what = "trial tolerance", .range = {0, 1, false}, .value = at<&Scene::integrator, &IntegratorSettings::fixed_step>};
 
 TEST(SceneSettings, AreReadAndWrittenByTheirRow) {
     Settings const rows(&trial, 1);
     Scene scene;
-    EXPECT_EQ(preset_text(trial), value_text(trial, scene));
+    EXPECT_EQ(preset_text(trial), trial.value.text(scene, trial));
     read_bound(read_document("[integrator]\ntrial_tolerance = \"250 ms\"", "s.toml", {}), "integrator", scene, rows);
-    EXPECT_EQ(value_text(trial, scene), "0.25");
+    EXPECT_EQ(trial.value.text(scene, trial), "0.25");
     read_bound(read_document("[integrator]\ntrial_tolerance = 0.5", "s.toml", {{"integrator.trial_tolerance", "0.125"}}), "integrator", scene, rows);
-    EXPECT_EQ(value_text(trial, scene), "0.125");
+    EXPECT_EQ(trial.value.text(scene, trial), "0.125");
     try {
         read_bound(read_document("[integrator]\ntrial_tolerance = 2", "s.toml", {}), "integrator", scene, rows);
         FAIL() << "out of range";

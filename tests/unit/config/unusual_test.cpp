@@ -69,7 +69,7 @@ TEST(UnusualNumbers, OfDrawsAndColumnsOfASweep) {
 
 TEST(UnusualNumbers, OfTheFirstRowOfATable) {
     testing::TableFolder const folder;
-    std::string const lines = "[mechanism]\nkind = \"free_slider\"\n[study]\ndesign = \"table\"\ntable = \"a.csv\"\nduration = \"1 ms\"\n";
+    std::string const lines = "[mechanism]\nkind = \"free_slider\"\n[contact]\nlaw = \"paper\"\n[study]\ndesign = \"table\"\ntable = \"a.csv\"\nduration = \"1 ms\"\n";
     folder.write("a.csv", "part,joint.clearance,initial.vx\na,1e-4,1\nb,0.1,1\nc,0.2,5000\n");
     Warnings warnings = folder.read(lines).warnings;
     ASSERT_EQ(warnings.size(), 2u);
