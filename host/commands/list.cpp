@@ -92,23 +92,22 @@ static_assert(std::size(study_meanings) == std::size(study_kind_names));
 
 /// Their words, and below these their dampings and what they have of their own.
 void print_laws() {
-    auto const all = laws();
-    for (LawInfo const& law : all) {
-        print_row("  {:<30} {}{}", law.name, law.words, module_text(module_of(static_cast<Law>(&law - all.data()))));
+    std::string const rigid = owners_text([](MechanismInfo const& one) { return may_be_rigid(static_cast<Mechanism>(&one - mechanisms().data())); });
+    for (LawInfo const& law : contact_laws()) {
+        Parts parts;
+        choose_contact(parts, law.name);
+        std::string const owners = !parts.rigid ? std::string() : rigid.empty() ? " (every mechanism)" : rigid;
+        print_row("  {:<30} {}{}{}", law.name, law.words, module_text(contact_module(parts)), owners);
         std::vector<std::string_view> dampings;
         for (int i = 0; i < damping_count; ++i) {
             auto const damping = static_cast<Damping>(i);
             bool const has = damping == Damping::point ? has_group(law.groups, KeyGroup::point_damping) : law.has(damping);
             if (has) dampings.push_back(damping_names[i]);
         }
-        print_row("  {:<30} damping: {}", "", dampings.empty() ? "its own alone" : fmt::format("{}", fmt::join(dampings, ", ")));
-        for (Key const& key : law.keys) {
-            print_row("  {:<30} {} [{}]: {}", "", key.name, key.unit, key.meaning);
-        }
+        print_row("  {:<30} damping: {}{}", "", dampings.empty() ? "its own alone" : fmt::format("{}", fmt::join(dampings, ", ")),
+                  needs_restitution(parts) ? ", which it needs" : "");
+        for (Key const& key : law.keys) print_row("  {:<30} {} [{}]: {}", "", key.name, key.unit, key.meaning);
     }
-    std::string const rigid = owners_text([](MechanismInfo const& one) { return may_be_rigid(static_cast<Mechanism>(&one - mechanisms().data())); });
-    print_row("  {:<30} {}{}", rigid_contact.name, rigid_contact.words, rigid.empty() ? " (every mechanism)" : rigid);
-    print_row("  {:<30} damping: restitution, which it needs", "");
 }
 
 /// Of `design_names`.

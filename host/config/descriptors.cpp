@@ -78,19 +78,25 @@ std::span<MechanismInfo const> mechanisms() {
     static OfAllKnown<std::vector<MechanismInfo>> all([] { return with_modules(mechanism_infos, ModuleKind::mechanism, &mechanism_info); });
     return all();
 }
-std::span<LawInfo const> laws() {
-    static OfAllKnown<std::vector<LawInfo>> all([] { return with_modules(law_infos, ModuleKind::law, &law_info); });
+std::span<LawInfo const> contact_laws() {
+    static OfAllKnown<std::vector<LawInfo>> all([] {
+        auto known = with_modules(law_infos, ModuleKind::law, &law_info);
+        known.push_back(rigid_contact);
+        return known;
+    });
     return all();
 }
+std::span<LawInfo const> laws() { return contact_laws().first(contact_laws().size() - 1); }
 
 std::span<std::string_view const> mechanism_names() {
     static OfAllKnown<std::vector<std::string_view>> names([] { return names_of(mechanisms()); });
     return names();
 }
-std::span<std::string_view const> law_names() {
-    static OfAllKnown<std::vector<std::string_view>> names([] { return names_of(laws()); });
+std::span<std::string_view const> contact_law_names() {
+    static OfAllKnown<std::vector<std::string_view>> names([] { return names_of(contact_laws()); });
     return names();
 }
+std::span<std::string_view const> law_names() { return contact_law_names().first(contact_law_names().size() - 1); }
 
 std::optional<Law> find_law(std::string_view name, std::span<std::string const> search) { return find<Law>(law_infos, ModuleKind::law, name, search); }
 std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::string const> search) {
@@ -98,6 +104,7 @@ std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::st
 }
 OwnModule const* module_of(Law law) { return module_behind(law_infos, ModuleKind::law, static_cast<int>(law)); }
 OwnModule const* module_of(Mechanism mechanism) { return module_behind(mechanism_infos, ModuleKind::mechanism, static_cast<int>(mechanism)); }
+OwnModule const* contact_module(Parts const& parts) { return parts.rigid ? nullptr : module_of(parts.law); }
 
 void open_modules(ModuleKind kind, std::span<std::string const> search, std::function<void(std::string const& why)> const& refused) {
     for (std::string const& name : own_module_names(kind, search)) {
@@ -118,7 +125,7 @@ std::string modules_text(Parts const& parts) {
     auto const add = [&](char const* kind, OwnModule const* own) {
         if (own != nullptr) text += std::string(text.empty() ? "" : "; ") + kind + own->name + ": source " + own->source + ", " + own->described->compiler;
     };
-    if (!parts.rigid) add("law ", module_of(parts.law));
+    add("law ", contact_module(parts));
     add("mechanism ", module_of(parts.mechanism));
     return text;
 }
@@ -127,17 +134,19 @@ MechanismInfo const& info(Mechanism mechanism) { return mechanisms()[static_cast
 LawInfo const& info(Law law) { return laws()[static_cast<std::size_t>(law)]; }
 LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }
 
-std::span<std::string_view const> contact_law_names() {
-    static OfAllKnown<std::vector<std::string_view>> names([] {
-        std::vector<std::string_view> all(law_names().begin(), law_names().end());
-        all.push_back(rigid_contact.name);
-        return all;
-    });
-    return names();
-}
-
 bool may_be_rigid(Mechanism mechanism) { return static_cast<std::size_t>(mechanism) < std::size(mechanism_infos); }
 
+bool choose_contact(Parts& parts, std::string_view name, std::span<std::string const> search) {
+    parts.rigid = name == rigid_contact.name;
+    auto const found = parts.rigid ? std::optional(parts.law) : find_law(name, search);
+    if (found) parts.law = *found;
+    return found.has_value();
+}
+
+bool has_faces(Parts const& parts) { return info(parts.mechanism).spatial && !parts.rigid; }
+bool has_switches(Parts const& parts) { return makes_energy(parts) && parts.damping != Damping::restitution; }
+bool ends_at_changes(Parts const& parts) { return contact_info(parts).continuous && parts.damping != Damping::restitution; }
+bool needs_restitution(Parts const& parts) { return parts.rigid || (has_faces(parts) && info(parts.law).needs_restitution); }
 bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && contact_info(parts).switches; }
 
 bool is_prescribed(Parts const& parts, int component) {

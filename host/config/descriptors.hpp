@@ -65,6 +65,7 @@ void open_modules(ModuleKind kind, std::span<std::string const> search, std::fun
 /// The module that it is of; nullptr of the tree's.
 OwnModule const* module_of(Law law);
 OwnModule const* module_of(Mechanism mechanism);
+OwnModule const* contact_module(Parts const& parts);
 /// "law hunt_crossley: source 1f0a…, g++ 12.2.0; mechanism …" of a scene's modules; "" where all is the tree's.
 std::string modules_text(Parts const& parts);
 
@@ -75,13 +76,25 @@ inline constexpr Law default_law = Law::foundation;
 
 /// What says how contacts push: the law, or `rigid_contact` where nothing gives way.
 LawInfo const& contact_info(Parts const& parts);
-/// What contact.law may say: the laws, and "rigid" behind them.
+/// What contact.law may say: the laws, and `rigid_contact` behind them.
+std::span<LawInfo const> contact_laws();
 std::span<std::string_view const> contact_law_names();
 /// Whether a mechanism has kernels for rigid contacts.
 bool may_be_rigid(Mechanism mechanism);
 
+/// By its name, as `find_law` has it, or "rigid".  @return whether there is one
+bool choose_contact(Parts& parts, std::string_view name, std::span<std::string const> search = {});
+
+/// Whether faces give way; else corners do, or nothing.
+bool has_faces(Parts const& parts);
 /// Whether the contact law makes energy where its modes switch (model.md 8); a mechanism whose corners are points has none.
 bool makes_energy(Parts const& parts);
+/// Whether forces jump there, so that steps had better end: with a restitution they end at touches anyway.
+bool has_switches(Parts const& parts);
+/// Whether steps may end just beyond where contacts change, as the lanes have it (Conditions::continuous).
+bool ends_at_changes(Parts const& parts);
+/// Whether contact.restitution has to say how much contacts take.
+bool needs_restitution(Parts const& parts);
 
 /// Whether a drive prescribes a component of the state, so that neighbours cannot differ in it.
 bool is_prescribed(Parts const& parts, int component);

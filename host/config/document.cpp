@@ -48,13 +48,19 @@ Origin of_file(std::string_view text, std::string const& path) {
     return origin;
 }
 
-struct Placed {
-    toml::source_position position;
-    Node node;
-};
+/// What a value is, and of a table or an array its type alone.
+void take_value(toml::node const& from, Node& node) {
+    using Type = Node::Type;
+    node.type = Type::other;  // dates and times
+    if (auto const* boolean = from.as_boolean()) node.type = Type::boolean, node.boolean = boolean->get();
+    if (auto const* integer = from.as_integer()) node.type = Type::integer, node.integer = integer->get();
+    if (auto const* real = from.as_floating_point()) node.type = Type::real, node.real = real->get();
+    if (auto const* text = from.as_string()) node.type = Type::text, node.text = unshielded(text->get());
+    if (from.is_array()) node.type = Type::array;
+    if (auto const* table = from.as_table()) node.type = Type::table, node.inline_table = table->is_inline();
+}
 
-Node convert(toml::node const& from, std::string key, std::string name, toml::source_position at, Origin const& origin,
-             int depth = 0) {
+Node convert(toml::node const& from, std::string key, std::string name, toml::source_position at, Origin const& origin, int depth = 0) {
     Node node;
     node.key = std::move(key);
     node.name = std::move(name);
@@ -62,46 +68,22 @@ Node convert(toml::node const& from, std::string key, std::string name, toml::so
     node.line = origin.order == 0 ? std::max(1, static_cast<int>(at.line)) : 0;
     node.where = origin.order == 0 ? fmt::format("{}:{}", origin.path, node.line) : origin.option;
     node.begin = origin.offset(from.source().begin), node.end = origin.offset(from.source().end);
-    if (depth > deepest) {
-        refuse_that(node, "is no key of a scene", {fmt::format("it nests deeper than {} levels", deepest), "remove it"});
+    if (depth > deepest) refuse_that(node, "is no key of a scene", {fmt::format("it nests deeper than {} levels", deepest), "remove it"});
+    take_value(from, node);
+    if (auto const* array = from.as_array()) {
+        for (auto const& child : *array) node.children.push_back(convert(child, {}, node.name, child.source().begin, origin, depth + 1));
     }
-    using Type = Node::Type;
     if (auto const* table = from.as_table()) {
-        node.type = Type::table;
-        node.inline_table = table->is_inline();
-        std::vector<Placed> placed;
+        std::vector<std::pair<toml::source_position, Node>> placed;
         for (auto const& [child_key, child] : *table) {
             std::string child_part = unshielded(child_key.str());
             std::string child_name = node.name.empty() ? child_part : fmt::format("{}.{}", node.name, child_part);
-            // toml++ sorts by name; the position of the key restores the order of the file.
             auto const position = child_key.source().begin;
-            placed.push_back(
-                {position, convert(child, std::move(child_part), std::move(child_name), position, origin, depth + 1)});
+            placed.emplace_back(position, convert(child, std::move(child_part), std::move(child_name), position, origin, depth + 1));
         }
-        std::stable_sort(placed.begin(), placed.end(), [](Placed const& a, Placed const& b) {
-            return a.position.line != b.position.line ? a.position.line < b.position.line
-                                                      : a.position.column < b.position.column;
-        });
-        for (Placed& child : placed) node.children.push_back(std::move(child.node));
-    } else if (auto const* array = from.as_array()) {
-        node.type = Type::array;
-        for (auto const& child : *array) {
-            node.children.push_back(convert(child, {}, node.name, child.source().begin, origin, depth + 1));
-        }
-    } else if (auto const* boolean = from.as_boolean()) {
-        node.type = Type::boolean;
-        node.boolean = boolean->get();
-    } else if (auto const* integer = from.as_integer()) {
-        node.type = Type::integer;
-        node.integer = integer->get();
-    } else if (auto const* real = from.as_floating_point()) {
-        node.type = Type::real;
-        node.real = real->get();
-    } else if (auto const* text = from.as_string()) {
-        node.type = Type::text;
-        node.text = unshielded(text->get());
-    } else {
-        node.type = Type::other;  // dates and times
+        // toml++ sorts by name; the position of the key restores the order of the file.
+        std::ranges::stable_sort(placed, {}, [](auto const& one) { return std::pair(one.first.line, one.first.column); });
+        for (auto& [position, child] : placed) node.children.push_back(std::move(child));
     }
     return node;
 }
@@ -150,10 +132,8 @@ Node parse_override(std::string const& key, std::string const& value, int order)
         std::string const literal = number ? fmt::format("{}", *number) : toml_string(value);
         if (auto node = parse_pair(key, literal, origin)) return *node;
     }
-    throw SceneError(
-        fmt::format("{}: no key=value (the part before = must be a dotted key); "
-                    "write for example --set joint.clearance=\"0.1 mm\"",
-                    origin.option));
+    constexpr std::string_view advice = "no key=value (the part before = must be a dotted key); write for example --set joint.clearance=\"0.1 mm\"";
+    throw SceneError(fmt::format("{}: {}", origin.option, advice));
 }
 
 /// What an override of a key makes void in the file: keys that say the same in other words.
@@ -163,10 +143,9 @@ std::vector<std::string_view> rivals_of(std::string_view name) {
     if (name == "contact.restitution") result.assign(std::begin(rates_of_damping), std::end(rates_of_damping));
     auto const row = std::ranges::find(settings(), name, &Setting::name);
     if (row != settings().end()) std::ranges::copy_if(row->rivals, std::back_inserter(result), [](auto rival) { return !rival.empty(); });
-    for (Key const& twin : twin_keys()) {
-        if (twin.name != name) continue;
+    if (Key const* const twin = find_key(name); twin != nullptr && twin->twin != nullptr) {
         for (Key const& single : keys()) {
-            if (single.overlaps(twin)) result.push_back(single.name);
+            if (single.overlaps(*twin)) result.push_back(single.name);
         }
     }
     return result;
@@ -174,11 +153,9 @@ std::vector<std::string_view> rivals_of(std::string_view name) {
 
 void lay_over(Node& base, Node const& over) {
     for (Node const& child : over.children) {
-        for (std::string_view const rival : rivals_of(child.name)) {
-            std::erase_if(base.children, [&](Node const& node) { return node.name == rival; });
-        }
-        auto const found = std::find_if(base.children.begin(), base.children.end(),
-                                        [&](Node const& node) { return node.key == child.key; });
+        auto const rivals = rivals_of(child.name);
+        std::erase_if(base.children, [&](Node const& node) { return std::ranges::count(rivals, node.name) > 0; });
+        auto const found = std::ranges::find(base.children, child.key, &Node::key);
         if (found == base.children.end()) {
             base.children.push_back(child);
         } else if (child.is_table() && !child.inline_table && found->is_table()) {
@@ -226,20 +203,13 @@ void refuse(Node const& node, Problem const& problem) { refuse(node, shown_value
 
 std::string shown_value(Node const& node) {
     switch (node.type) {
-        case Node::Type::boolean:
-            return node.boolean ? "true" : "false";
-        case Node::Type::integer:
-            return fmt::format("{}", node.integer);
-        case Node::Type::real:
-            return fmt::format("{}", node.real);
-        case Node::Type::text:
-            return fmt::format("\"{}\"", shown_briefly(node.text));
-        case Node::Type::array:
-            return "a list";
-        case Node::Type::table:
-            return "a table";
-        case Node::Type::other:
-            break;
+        case Node::Type::boolean: return node.boolean ? "true" : "false";
+        case Node::Type::integer: return fmt::format("{}", node.integer);
+        case Node::Type::real: return fmt::format("{}", node.real);
+        case Node::Type::text: return fmt::format("\"{}\"", shown_briefly(node.text));
+        case Node::Type::array: return "a list";
+        case Node::Type::table: return "a table";
+        case Node::Type::other: break;
     }
     return "a date or time";
 }

@@ -1,6 +1,7 @@
 // The period of what drives a mechanism: a revolution of its crank, or the carriage's way there and back; and what of it members may have.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "host/config/reader.hpp"
@@ -13,43 +14,29 @@ namespace {
 std::pair<double, double> ends_of(Distribution const& d) {
     constexpr double deviations = 8, rare = 1e-15;
     switch (d.kind) {
-        case Distribution::Kind::constant:
-            return {d.mean, d.mean};
-        case Distribution::Kind::normal:
-            return {d.mean - deviations * d.sd, d.mean + deviations * d.sd};
+        case Distribution::Kind::constant: return {d.mean, d.mean};
+        case Distribution::Kind::normal: return {d.mean - deviations * d.sd, d.mean + deviations * d.sd};
+        case Distribution::Kind::weibull: return {d.low + d.scale * std::pow(rare, 1 / d.shape), d.low + d.scale * std::pow(-std::log(rare), 1 / d.shape)};
         case Distribution::Kind::lognormal: {
             // Of ln(x - low): variance ln(1 + (sd/m)²) and mean ln m - variance/2, m = mean - low.
             double const m = d.mean - d.low, variance = std::log1p((d.sd / m) * (d.sd / m));
             double const median = m * std::exp(-variance / 2), spread = std::exp(deviations * std::sqrt(variance));
             return {d.low + median / spread, d.low + median * spread};
         }
-        case Distribution::Kind::weibull:
-            return {d.low + d.scale * std::pow(rare, 1 / d.shape),
-                    d.low + d.scale * std::pow(-std::log(rare), 1 / d.shape)};
         case Distribution::Kind::uniform:
         case Distribution::Kind::triangular:
         case Distribution::Kind::truncated_normal:
-        case Distribution::Kind::values:
-            break;
+        case Distribution::Kind::values: break;
     }
     return {d.low, d.high};
 }
 
-/// Magnitudes that members may have of a key; the least is 0 where the limits include it.
-struct Magnitudes {
-    double least, most;
-    bool several = false;  // members may differ
-};
-
-Magnitudes magnitudes(Scene const& scene, Key const& key) {
-    double const own = std::abs(key.get(scene.inputs));
-    Magnitudes range{own, own};
+/// Magnitudes that members may have of a key, in which they may differ: those of their own values, or of an end that they share.  None: one, the scene's.
+std::optional<Range> magnitudes(Scene const& scene, Key const& key) {
+    std::optional<Range> range;
     auto const take = [&](double low, double high) {
-        if (!range.several) range.least = range.most = std::abs(low);
-        range.several = true;
-        double const least = low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
-        range.least = std::min(range.least, least);
-        range.most = std::max({range.most, std::abs(low), std::abs(high)});
+        double const least = low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high)), most = std::max(std::abs(low), std::abs(high));
+        range = range ? Range{std::min(range->low, least), std::max(range->high, most)} : Range{least, most};
     };
     auto const take_each = [&](std::vector<double> const& values) {
         for (double const value : values) take(value, value);
@@ -75,13 +62,9 @@ Magnitudes magnitudes(Scene const& scene, Key const& key) {
 
 }  // namespace
 
-double drive_period(Parts const& parts, Inputs const& inputs) {
-    return drive_period(info(parts.mechanism), parts.free_crank, inputs);
-}
+double drive_period(Parts const& parts, Inputs const& inputs) { return drive_period(info(parts.mechanism), parts.free_crank, inputs); }
 
-double first_time_at(double phase, Parts const& parts, Inputs const& inputs) {
-    return first_time_at(phase, info(parts.mechanism), parts.free_crank, inputs);
-}
+double first_time_at(double phase, Parts const& parts, Inputs const& inputs) { return first_time_at(phase, info(parts.mechanism), parts.free_crank, inputs); }
 
 std::string why_no_period(Parts const& parts) {
     if (!parts.free_crank && info(parts.mechanism).drive != DriveKind::none) return "mechanism.crank_speed is 0";
@@ -94,10 +77,11 @@ PeriodRange drive_periods(Scene const& scene) {
     /// @param at_least, at_most whose period has the key's least and largest magnitude
     auto const vary = [&](std::string_view name, Inputs& at_least, Inputs& at_most) {
         Key const& key = *find_key(name);
-        Magnitudes const of_key = magnitudes(scene, key);
-        if (of_key.several && range.varied == nullptr) range.varied = &key;
-        key.set(at_least, of_key.least);
-        key.set(at_most, of_key.most);
+        auto const varied = magnitudes(scene, key);
+        if (varied && range.varied == nullptr) range.varied = &key;
+        double const own = std::abs(key.get(scene.inputs));
+        key.set(at_least, varied ? varied->low : own);
+        key.set(at_most, varied ? varied->high : own);
     };
     if (info(scene.parts.mechanism).drive == DriveKind::carriage) {
         vary("mechanism.carriage_speed", longest, shortest);
@@ -112,9 +96,9 @@ PeriodRange drive_periods(Scene const& scene) {
 }
 
 double shortest_reversal(Scene const& scene) {
-    double const least = magnitudes(scene, *find_key("mechanism.reversal_time")).least;
+    auto const varied = magnitudes(scene, *find_key("mechanism.reversal_time"));
     // Members at 0 fail before they run.
-    return least > 0 ? least : scene.inputs.reversal_time;
+    return varied && varied->low > 0 ? varied->low : scene.inputs.reversal_time;
 }
 
 }  // namespace slideway

@@ -42,8 +42,7 @@ bool is_of(Setting const& key, std::size_t mechanism) {
 bool is_of_law(Key const& key, std::size_t law) {
     if (key.group == KeyGroup::mechanism) return true;
     Parts parts;
-    parts.rigid = law == law_names().size();
-    if (!parts.rigid) parts.law = static_cast<Law>(law);
+    choose_contact(parts, contact_law_names()[law]);
     return counts_for(key, parts) || !counts_for(key, parts.mechanism);
 }
 
@@ -205,7 +204,8 @@ std::string keys_markdown(Settings keys) {
             return safe;
         };
         text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", key.key(), name_of(key.type),
-                            key.unit == "1" ? "" : key.unit, cell(domain_text(key)), usual_text(key), cell(preset_text(key)), cell(key.meaning), owners_text(key));
+                            key.unit == "1" ? "" : key.unit, cell(domain_text(key)), usual_text(key), cell(preset_text(key)),
+                            cell(key.meaning), owners_text(key));
     }
     return text;
 }

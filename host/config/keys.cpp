@@ -67,11 +67,8 @@ std::vector<Key const*> make_every_key() {
         for (Key const& key : more) {
             // Of several that have it, it is the same key (objection_to), but for the default of a former version.
             auto const at = std::ranges::find(keys, key.name, &Key::name);
-            if (at == keys.end()) {
-                keys.push_back(&key);
-            } else {
-                *at = &key;
-            }
+            if (at == keys.end()) keys.push_back(&key);
+            else *at = &key;
         }
     };
     for (Key const& key : input_keys) {
@@ -223,6 +220,32 @@ std::optional<Problem> broken_rule(Key const& key, double value) {
     return Problem{fmt::format(fmt::runtime(reason), key.meaning), advice};
 }
 
+namespace {
+
+/// What numbers ask of one another, of a member whose own rules they meet.  {crank}, {rod} … stand for the numbers.
+constexpr struct {
+    std::string_view key, other;
+    bool (*when)(Inputs const&, Parts const&);
+    std::string_view why, instead;
+} number_rules[] = {
+    {"contact.restitution", "contact.law",
+     [](Inputs const& in, Parts const& parts) { return parts.damping == Damping::restitution && !parts.rigid && in.restitution == 0; },
+     "what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"},
+    {"mechanism.rod_length", "mechanism.crank_length", [](Inputs const& in, Parts const&) { return in.crank_speed != 0 && in.rod_length <= in.crank_length; },
+     "the crank of {crank} m cannot turn fully", "use a rod longer than the crank, or crank_speed = 0"},
+    // The planar mechanism starts with the rod's angle, which follows from y.
+    {"initial.y", "mechanism.start_angle",
+     [](Inputs const& in, Parts const& parts) {
+         return !info(parts.mechanism).spatial && counts_for(*find_key("mechanism.rod_length"), parts.mechanism) &&
+                !(std::abs(in.y - in.crank_length * std::sin(in.start_angle)) < in.rod_length);
+     },
+     "the rod of {rod} m does not reach it from a crank at {angle} rad", "use a value near 0"},
+    {"friction.slip_speed", "friction.stick_speed", [](Inputs const& in, Parts const&) { return in.friction_slip_speed <= in.friction_stick_speed; },
+     "not above friction.stick_speed, {stick} m/s", "use a slip_speed > stick_speed"},
+};
+
+}  // namespace
+
 std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
     Inputs const in = complete_inputs(inputs, info(parts.mechanism));
     for (Key const& key : keys()) {
@@ -235,31 +258,12 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
         if (std::isnan(key.get(inputs))) problem->reason += fmt::format(", and follows from {}", derivation_of(key, parts, in));
         return Defect{&key, nullptr, key.get(in), *problem};
     }
-    if (parts.damping == Damping::restitution && !parts.rigid && in.restitution == 0) {
-        return Defect{find_key("contact.restitution"), nullptr, 0.0, {"what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"}};
-    }
-    auto const clash = [&](std::string_view name, std::string_view other, std::string reason, std::string advice) {
-        Key const* const key = find_key(name);
-        return Defect{key, find_key(other), key->get(in), {std::move(reason), std::move(advice)}};
-    };
-    bool const has_crank = counts_for(*find_key("mechanism.rod_length"), parts.mechanism);
-    if (has_crank && in.crank_speed != 0 && in.rod_length <= in.crank_length) {
-        return clash("mechanism.rod_length", "mechanism.crank_length",
-                     fmt::format("the crank of {} m cannot turn fully", in.crank_length),
-                     "use a rod longer than the crank, or crank_speed = 0");
-    }
-    // The planar mechanism starts with the rod's angle, which follows from y.
-    if (has_crank && !info(parts.mechanism).spatial &&
-        !(std::abs(in.y - in.crank_length * std::sin(in.start_angle)) < in.rod_length)) {
-        return clash("initial.y", "mechanism.start_angle",
-                     fmt::format("the rod of {} m does not reach it from a crank at {} rad", in.rod_length,
-                                 in.start_angle),
-                     "use a value near 0");
-    }
-    if (in.friction_slip_speed <= in.friction_stick_speed) {
-        return clash("friction.slip_speed", "friction.stick_speed",
-                     fmt::format("not above friction.stick_speed, {} m/s", in.friction_stick_speed),
-                     "use a slip_speed > stick_speed");
+    for (auto const& rule : number_rules) {
+        Key const& key = *find_key(rule.key);
+        if (!rule.when(in, parts) || !counts_for(key, parts.mechanism)) continue;
+        std::string why = fmt::format(fmt::runtime(rule.why), fmt::arg("crank", in.crank_length), fmt::arg("rod", in.rod_length),
+                                      fmt::arg("angle", in.start_angle), fmt::arg("stick", in.friction_stick_speed));
+        return Defect{&key, find_key(rule.other), key.get(in), {std::move(why), std::string(rule.instead)}};
     }
     return std::nullopt;
 }
@@ -267,8 +271,7 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
 std::optional<std::string> defect(Inputs const& inputs, Parts const& parts) {
     auto const found = find_defect(inputs, parts);
     if (!found) return std::nullopt;
-    return fmt::format("{} is {} ({}); {}", found->key->name, with_unit(found->value, found->key->unit),
-                       found->problem.reason, found->problem.advice);
+    return fmt::format("{} is {} ({}); {}", found->key->name, with_unit(found->value, found->key->unit), found->problem.reason, found->problem.advice);
 }
 
 }  // namespace slideway

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,10 +10,26 @@
 #include <vector>
 
 #include "host/config/document.hpp"
+#include "host/config/rules.hpp"
 #include "host/config/scene.hpp"
 #include "host/config/settings.hpp"
 
 namespace slideway {
+
+/// A document on its way to a scene, by the tables of keys and of their rules.
+struct Reading {
+    Node const& root;
+    Scene& scene;
+    Settings keys = known_keys();
+    KeyRules rules = key_rules();
+
+    Node const* given(std::string_view name) const { return root.find_path(name); }
+    /// The first of them that is given.
+    Node const* given_of(std::initializer_list<std::string_view> names) const;
+    /// What is given of the keys of a table that know their places.
+    void read_table(std::string_view table);
+    void warn(std::string line) { scene.warnings.push_back(std::move(line)); }
+};
 
 /// A node that holds a numeric key of the physics.
 struct GivenKey {
@@ -23,74 +40,37 @@ struct GivenKey {
 std::vector<GivenKey> given_keys(Node const& root);
 
 /// [modules], and which mechanism and law a scene names: modules that they are of are opened, and their keys are known from here on.
-void read_modules(Node const& root, Scene& scene);
+void read_modules(Reading& reading);
 /// Numeric keys, damping, friction and way pose; everything of Scene::inputs and Scene::parts but [study.vary].
-void read_physics(Node const& root, Scene& scene);
-/// Refuses contacts that need a restitution where nothing says it.
-void check_restitution(Node const& root, Scene const& scene);
-/// Says which law a scene that names none has, and warns of contacts that take no energy.
-void tell_of_contacts(Node const& root, Scene& scene);
+void read_physics(Reading& reading);
 /// Warns of keys from which masses would follow, where all of those are given.
-void warn_of_idle_sources(Node const& root, Scene& scene);
+void warn_of_idle_sources(Reading& reading);
 /// [study.vary]; adds the kernel parts that the varied keys need.
-void read_variations(Node const& root, Scene& scene);
-/// An entry of [study.vary].
-struct VariedNode {
-    std::string name;  // dotted key
-    Node const* node;
-};
-/// In the order of Scene::variations.
-std::vector<VariedNode> varied_nodes(Node const& root);
+void read_variations(Reading& reading);
+/// The entries of [study.vary], in the order of Scene::variations.
+std::vector<Node const*> varied_nodes(Node const& root);
+/// The dotted key of one.
+std::string_view varied_name(Node const& node);
 /// Which study, of how many members, and what it is asked for; adds the kernel parts that a swept key needs.
-void read_study(Node const& root, Scene& scene);
+void read_study(Reading& reading);
 /// How the members are spread: Scene::design, and how many members follow from it; needs the study and what varies.
-void read_design(Node const& root, Scene& scene);
+void read_design(Reading& reading);
 /// study.table: Scene::design.table and a variation for each of its columns.
-void read_member_table(Node const& node, Node const& root, Scene& scene);
+void read_member_table(Reading& reading, Node const& node);
 /// [study.limits]; adds their quantities to those asked for.
-void read_limits(Node const& root, Scene& scene);
-/// study.store; needs the design, the samples and the quantities.
-void read_store(Node const& root, Scene& scene);
+void read_limits(Reading& reading);
 /// The keys of a study of orbits: Scene::chaos.
-void read_chaos(Node const& root, Scene& scene);
-/// Where the sections of a poincare or sweep are taken.
-void read_section(Node const& root, Scene& scene);
+void read_orbits(Reading& reading);
+/// study.section: where a poincare study takes its states.
+void read_section(Node const& table, Scene& scene);
 /// What a sweep sweeps, through which values.
-void read_sweep(Node const& root, Scene& scene);
-/// What a sweep asks of the lengths of time.
-void check_columns(Node const& root, Scene const& scene);
+void read_sweep(Reading& reading);
 /// [integrator]; needs the period of the drive and the study.
-void read_integrator(Node const& root, Scene& scene);
-/// How many steps a member may take: IntegratorSettings::max_steps.  Refuses steps that come to no end.
-struct RunLength;
-void read_steps(Node const& root, Scene& scene, RunLength const& length);
+void read_integrator(Reading& reading);
 /// Until when, and what of [study] is recorded on the way; needs everything above.
-void read_recording(Node const& root, Scene& scene);
-
-/// Whether a key may differ between members or columns: nothing else varies it, and it counts beside the scene's other ones.
-/// @param of_option why an option that sets it is refused  @throws SceneError at `node`, or at a key that it replaces
-void check_varied(Node const& root, Node const& node, Key const& key, Scene const& scene, Problem const& of_option);
-/// What to write instead of a name that is no numeric key of the physics.
-std::string key_advice(std::string_view name);
-/// Periods of the drive that members may have [s]; the most is infinite where a limit lets it stand still.
-struct PeriodRange {
-    double least, most;
-    Key const* varied;  // why they may differ between members; nullptr: they do not
-};
-PeriodRange drive_periods(Scene const& scene);
-
-/// The least reversal_time that members of a carriage may have [s], > 0.
-double shortest_reversal(Scene const& scene);
-
-/// Refuses a key, or a table, that does not count for the scene's mechanism, at a position.
-[[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
-/// Refuses a key that the scene's law does not know.
-[[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
-/// Refuses a quantity or a series that the scene's mechanism does not have.
-[[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
-/// Why the scene's members do not have a quantity of their mechanism, where it is so.
-std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene);
-std::optional<Problem> why_unknown(Series series, Scene const& scene);
+void read_recording(Reading& reading);
+/// Warns of numbers that no mechanism has, likely slips of a unit (docs/troubleshooting.md): given ones, rows of a table, draws, columns of a sweep.
+void warn_of_unusual(Reading& reading);
 
 /// How long the members of a study of orbits run [s], and how often their steps end at known times.
 struct RunLength {
@@ -99,68 +79,71 @@ struct RunLength {
     double stops;
 };
 RunLength run_length(Scene const& scene);
+/// How many steps a member may take: IntegratorSettings::max_steps.  Refuses steps that come to no end.
+void read_steps(Reading& reading, RunLength const& length);
+
+/// Whether a key may differ between members or columns: nothing else varies it, and it counts beside the scene's other ones.
+/// @param of_option why an option that sets it is refused  @throws SceneError at `node`, or at a key that it replaces
+void check_varied(Reading const& reading, Node const& node, Key const& key, Problem const& of_option);
+/// Whether members or columns differ in a key.
+bool varies(Scene const& scene, std::string_view name);
+/// Whether a key says where a member starts.
+bool is_of_start(Key const& key);
+/// Whether steps end at contacts whatever the scene says.
+bool always_locates(Scene const& scene);
+/// What to write instead of a name that is no numeric key of the physics.
+std::string key_advice(std::string_view name);
+
+/// Periods of the drive that members may have [s]; the most is infinite where a limit lets it stand still.
+struct PeriodRange {
+    double least, most;
+    Key const* varied;  // why they may differ between members; nullptr: they do not
+};
+PeriodRange drive_periods(Scene const& scene);
+/// The least reversal_time that members of a carriage may have [s], > 0.
+double shortest_reversal(Scene const& scene);
+
+/// Why the scene's members do not have a quantity of their mechanism, where it is so.
+std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene);
 
 /// Most numbers of one kind in a result file, 80 GB.
 inline constexpr double most_values = 1e10;
 
-/// `count` times from 0 to end_time, both included; count is 0 or at least 2.
-std::vector<double> uniform_times(double end_time, std::size_t count);
+// Refusals that have words of their own.
 
-/// Warns of numbers that no mechanism has, likely slips of a unit (docs/troubleshooting.md): given ones, rows of a table, draws, columns of a sweep.
-void warn_of_unusual(Node const& root, Scene& scene);
-
-/// What is given of the keys of a table that know their places.
-void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows = settings());
-
-/// Refuses what `node` gives, or the study whose default it is; `key` is the dotted name.
+/// A key, or a table, that does not count for the scene's mechanism, at a position.
+[[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
+/// A key that the scene's law does not know.
+[[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
+/// A quantity or a series that the scene's mechanism does not have.
+[[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
+/// What `node` gives, or the study whose default it is; `key` is the dotted name.
 [[noreturn]] void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem);
-
-/// Refuses what is no argument of an inline table.  @param what it describes: "limit"
-void check_arguments(Node const& table, std::string_view what, std::initializer_list<std::string_view> known);
-
-/// Refuses what is counted by revolutions where nothing turns.  @param instead key that says it in seconds
+/// What is counted by revolutions where nothing turns.  @param instead key that says it in seconds
 [[noreturn]] void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead);
-
-/// Refuses a node that no part of the scene reads.
+/// A node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);
-
-/// Refuses what asks for a key that is not there:
-/// "study.points is missing (how many columns there are); add points = 50".
-[[noreturn]] void refuse_missing(Node const& asking, std::string_view key, std::string_view why,
-                                 std::string_view advice);
+/// What asks for a key that is not there: "study.points is missing (how many columns there are); add points = 50".
+[[noreturn]] void refuse_missing(Node const& asking, std::string_view key, std::string_view why, std::string_view advice);
+/// What is no argument of an inline table.  @param what it describes: "limit"
+void check_arguments(Node const& table, std::string_view what, std::initializer_list<std::string_view> known);
 
 // Values of nodes as the reader wants them, or an error at the node's position.
 
 /// A finite number, or a text with a unit that converts to `unit`; in SI units.  @throws SceneError
 double read_number(Node const& node, std::string_view unit);
-/// The same for a value within a range.
-double read_number(Node const& node, std::string_view unit, std::string_view meaning, Range range);
-/// The same for a key of the physics: within the key's rule.
+/// The same for a key of the physics, within its rule, and for a setting, within its limits.
 double read_number(Node const& node, Key const& key);
-
+double read_number(Node const& node, Setting const& setting);
 /// One or more of them.  @param example for refusals: "[1, 2]"
 std::vector<double> read_list(Node const& list, Key const& key, std::uint64_t most, std::string_view example);
-
-/// Of a setting: within its limits.
-double read_number(Node const& node, Setting const& setting);
-std::uint64_t read_count(Node const& node, Setting const& setting);
-
 /// An integer (or a real number that is one) from low to high.
 std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high);
-
-/// What is given of a setting; nothing where it is not.
-std::optional<double> given_number(Node const& root, std::string_view name);
-std::optional<std::uint64_t> given_count(Node const& root, std::string_view name);
-template <class Choice> void read_given(Node const& root, std::string_view name, Choice& to) {
-    if (Node const* const node = root.find_path(name)) read_value(*node, setting(name), to);
-}
-
+std::uint64_t read_count(Node const& node, Setting const& setting);
 bool read_boolean(Node const& node);
 std::string const& read_text_value(Node const& node);
-
 /// Index of the text in `names`.  @throws SceneError naming the nearest or all.
 std::size_t read_choice(Node const& node, std::string_view meaning, std::span<std::string_view const> names);
-
 /// "; did you mean x?" where a name is near enough, else "use one of a, b, c".
 std::string choice_advice(std::string_view name, std::span<std::string_view const> names);
 

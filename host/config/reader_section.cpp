@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,24 +7,12 @@
 #include <fmt/ranges.h>
 
 #include "host/base/suggest.hpp"
-#include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
 namespace {
 
 constexpr int apices = 8;
-
-void read_phase(Node const& root, Scene& scene) {
-    Node const* const node = root.find_path("study.phase");
-    if (node != nullptr) scene.chaos.section.level = read_number(*node, "rad");
-    if (std::isfinite(drive_period(scene.parts, scene.inputs))) return;
-    refuse_study(root, node, "study.phase",
-                 {fmt::format("{}, so no crank angle comes round", why_no_period(scene.parts)),
-                  scene.study != StudyKind::sweep ? "give study.section"
-                  : scene.parts.free_crank        ? "use crank = \"driven\""
-                                                  : "give the crank a speed"});
-}
 
 /// Names of what a section may be taken of: states, gaps, and at last impacts.
 std::vector<std::string> surface_names(MechanismInfo const& mechanism) {
@@ -48,32 +35,41 @@ void check_impacts(Node const& on, Node const* value, Parts const& parts) {
     if (value != nullptr) refuse(*value, {"an impact has no level", "remove it"});
 }
 
-void read_section_table(Node const& table, Scene& scene) {
+/// Place of what crosses the section among `surface_names`.
+int read_surface(Node const& on, MechanismInfo const& mechanism) {
+    std::string const& name = read_text_value(on);
+    auto const known = surface_names(mechanism);
+    auto const found = std::ranges::find(known, name);
+    if (found != known.end()) return static_cast<int>(found - known.begin());
+    std::string_view const near = nearest_name(name, std::vector<std::string_view>(known.begin(), known.end()));
+    auto const states = std::span(known).first(static_cast<std::size_t>(mechanism.states));
+    std::string_view const gaps = mechanism.spatial ? ", gap_y[P1] to gap_y[P8], gap_z[P1] to gap_z[P8]" : "";
+    refuse(on, {mechanism.spatial ? "neither a state nor a gap" : "no state of it",
+                near.empty() ? fmt::format("use one of {}{}", fmt::join(states, ", "), gaps)
+                             : fmt::format("did you mean \"{}\"?", near)});
+}
+
+}  // namespace
+
+std::string_view section_unit(SectionSurface const& section, Mechanism mechanism) {
+    if (section.is_phase()) return "rad";
+    if (section.on != SectionSurface::On::state) return "m";
+    SeriesInfo const& state = state_info(info(mechanism), section.index);
+    Key const* const key = find_key(fmt::format("initial.{}", state.name));
+    return key != nullptr ? key->unit : state.unit;
+}
+
+void read_section(Node const& table, Scene& scene) {
+    using On = SectionSurface::On;
     SectionSurface& section = scene.chaos.section;
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    constexpr std::string_view example = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
-    if (!table.is_table()) refuse(table, {"not a section", fmt::format("write for example {}", example)});
+    std::string const example = "write for example { on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
+    if (!table.is_table()) refuse(table, {"not a section", example});
     check_arguments(table, "section", {"on", "value", "direction"});
-    Node const* const on = table.find("on");
-    if (on == nullptr) refuse_that(table, "has no on", {"what crosses the section", fmt::format("write for example {}", example)});
-    std::string const& name = read_text_value(*on);
-    auto const known = surface_names(mechanism);
-    auto const found = std::find(known.begin(), known.end(), name);
-    if (found == known.end()) {
-        std::vector<std::string_view> const names(known.begin(), known.end());
-        std::string_view const near = nearest_name(name, names);
-        auto const states = std::span(known).first(static_cast<std::size_t>(mechanism.states));
-        refuse(*on,
-               {mechanism.spatial ? "neither a state nor a gap" : "no state of it",
-                near.empty() ? fmt::format("use one of {}{}", fmt::join(states, ", "),
-                                           mechanism.spatial ? ", gap_y[P1] to gap_y[P8], gap_z[P1] to gap_z[P8]" : "")
-                             : fmt::format("did you mean \"{}\"?", near)});
-    }
-    int const index = static_cast<int>(found - known.begin());
-    using On = SectionSurface::On;
-    int const states = mechanism.states;
-    Node const* const value = table.find("value");
-    if (name == impacts_name) {
+    Node const *const on = table.find("on"), *const value = table.find("value"), *const direction = table.find("direction");
+    if (on == nullptr) refuse_that(table, "has no on", {"what crosses the section", example});
+    int const index = read_surface(*on, mechanism), states = mechanism.states;
+    if (on->text == impacts_name) {
         check_impacts(*on, value, scene.parts);
         section.on = On::impacts;
         section.direction = CrossingDirection::both;
@@ -82,41 +78,7 @@ void read_section_table(Node const& table, Scene& scene) {
         section.index = index < states ? index : (index - states) % apices;
         if (value != nullptr) section.level = read_number(*value, section_unit(section, scene.parts.mechanism));
     }
-    if (Node const* const direction = table.find("direction")) {
-        section.direction =
-            static_cast<CrossingDirection>(read_choice(*direction, "direction", crossing_direction_names));
-    }
-}
-
-}  // namespace
-
-std::string_view section_unit(SectionSurface const& section, Mechanism mechanism) {
-    switch (section.on) {
-        case SectionSurface::On::phase:
-            return "rad";
-        case SectionSurface::On::state: {
-            SeriesInfo const& state = state_info(info(mechanism), section.index);
-            Key const* const key = find_key(fmt::format("initial.{}", state.name));
-            return key != nullptr ? key->unit : state.unit;
-        }
-        case SectionSurface::On::gap_y:
-        case SectionSurface::On::gap_z:
-        case SectionSurface::On::impacts:
-            break;
-    }
-    return "m";
-}
-
-void read_section(Node const& root, Scene& scene) {
-    Node const* const table = root.find_path("study.section");
-    Node const* const crossings = root.find_path("study.max_crossings");
-    if (table == nullptr) {
-        if (crossings != nullptr) {
-            refuse(*crossings, {"a crank angle comes once a revolution", "remove it, or give study.section"});
-        }
-        return read_phase(root, scene);
-    }
-    read_section_table(*table, scene);
+    if (direction != nullptr) section.direction = static_cast<CrossingDirection>(read_choice(*direction, "direction", crossing_direction_names));
 }
 
 }  // namespace slideway

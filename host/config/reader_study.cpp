@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -12,89 +11,97 @@
 
 #include "host/config/outputs.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/settings.hpp"
 
 namespace slideway {
 namespace {
 
-/// Of one member: they stay in memory while it runs.
-std::uint64_t most_samples() { return setting("study.samples").most; }
+/// Refuses what the study does not read, and the later one of two keys that say the same.
+void check_keys(Reading& reading) {
+    StudyKind const kind = reading.scene.study;
+    apply_rules(reading, Known::study_kind);
+    for (Setting const& key : reading.keys) {
+        Node const* const node = reading.given(key.name);
+        if (node == nullptr) continue;
+        if ((key.studies & set_of(kind)) == 0) {
+            std::vector<std::string> owners;
+            for (std::size_t i = 0; i < std::size(study_kind_names); ++i) {
+                if ((key.studies >> i & 1u) != 0) owners.push_back(fmt::format("\"{}\"", study_kind_names[i]));
+            }
+            refuse(*node, {fmt::format("it has no effect with kind = \"{}\"", name_of(kind)),
+                           fmt::format("remove it, or use kind = {}", fmt::join(owners, " or "))});
+        }
+        for (std::string_view const rival : key.rivals) {
+            // study.members may say what a design comes to.
+            Node const* const other = rival.empty() || rival == "study.members" ? nullptr : reading.given(rival);
+            if (other == nullptr) continue;
+            bool const is_later = std::pair(node->order, node->line) > std::pair(other->order, other->line);
+            refuse(is_later ? *node : *other, {fmt::format("{} says it too", is_later ? rival : key.name), "remove one of the two"});
+        }
+    }
+}
 
-struct EndTime {
-    double seconds;
-    double revolutions;  // NaN where there are none
-};
-
-EndTime read_end_time(Node const& root, Scene const& scene) {
+/// Until when members run that have a known end.
+double read_end_time(Reading const& reading) {
+    Scene& scene = reading.scene;
     double const turn = drive_period(scene.parts, scene.inputs);
-    bool const turns = std::isfinite(turn);
-    if (auto const seconds = given_number(root, "study.duration")) return {*seconds, turns ? *seconds / turn : NAN};
-    Node const* const node = root.find_path("study.revolutions");
-    if (!turns) {
-        if (node != nullptr) refuse_at_rest(*node, scene.parts, "study.duration");
-        return {1, NAN};
-    }
-    double const revolutions = given_number(root, "study.revolutions").value_or(1), seconds = revolutions * turn;
-    if (!(seconds > 0 && seconds <= longest_time)) {
-        std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn);
-        std::string const advice = fmt::format("stay below {} s", longest_time);
-        if (node != nullptr) refuse(*node, {reason, advice});
-        throw SceneError(fmt::format("{}: study.revolutions is 1 ({}); {}", root.where, reason, advice));
-    }
-    return {seconds, revolutions};
+    Node const* const node = reading.given_of({"study.duration", "study.revolutions"});
+    if (node == nullptr) scene.chaos.span = {1, std::isfinite(turn)};
+    double const seconds = scene.chaos.span.seconds(turn);
+    if (seconds > 0 && seconds <= longest_time) return seconds;
+    std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn), advice = fmt::format("stay below {} s", longest_time);
+    if (node != nullptr) refuse(*node, {reason, advice});
+    throw SceneError(fmt::format("{}: study.revolutions is 1 ({}); {}", reading.root.where, reason, advice));
 }
 
-void check_drive_is_resolved(Node const& root, Scene const& scene, double seconds) {
-    auto const problem = unresolved_drive(scene.parts, scene.inputs, seconds);
+void check_drive_is_resolved(Reading const& reading, double seconds) {
+    auto const problem = unresolved_drive(reading.scene.parts, reading.scene.inputs, seconds);
     if (!problem) return;
-    for (char const* const key : {"study.revolutions", "study.duration"}) {
-        if (Node const* const node = root.find_path(key)) refuse(*node, *problem);
-    }
-    throw SceneError(fmt::format("{}: the study is too long: {}; {}", root.where, problem->reason, problem->advice));
+    if (Node const* const node = reading.given_of({"study.revolutions", "study.duration"})) refuse(*node, *problem);
+    throw SceneError(fmt::format("{}: the study is too long: {}; {}", reading.root.where, problem->reason, problem->advice));
 }
 
-/// The node that asks for a time series, and how many times it has.
-struct Sampling {
-    Node const* node = nullptr;
-    std::size_t count = 0;
-};
-
-Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end) {
-    if (Node const* const node = root.find_path("study.samples")) {
+/// How many times a time series has.
+std::size_t read_samples(Reading const& reading, double end_time) {
+    Scene const& scene = reading.scene;
+    double const most = static_cast<double>(setting("study.samples").most);  // of one member: they stay in memory while it runs
+    if (Node const* const node = reading.given("study.samples")) {
         std::uint64_t const count = read_count(*node, setting("study.samples"));
         if (count == 1) refuse(*node, {"the first and the last time are both stored", "use 0 or at least 2"});
-        if (count > 1 && end.seconds / static_cast<double>(count) < std::numeric_limits<double>::min()) {
-            refuse(*node, {fmt::format("no numbers tell the times of {} s apart", end.seconds), "use a longer study.duration"});
-        }
-        return {node, count};
+        if (count > 1 && end_time / static_cast<double>(count) < std::numeric_limits<double>::min())
+            refuse(*node, {fmt::format("no numbers tell the times of {} s apart", end_time), "use a longer study.duration"});
+        return count;
     }
-    Node const* const node = root.find_path("study.samples_per_revolution");
-    if (node == nullptr) return {};
-    std::uint64_t const per_turn = read_count(*node, setting("study.samples_per_revolution"));
-    if (per_turn == 0) return {node, 0};
-    if (std::isnan(end.revolutions)) refuse_at_rest(*node, scene.parts, "study.samples");
-    double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * end.revolutions));
-    if (intervals >= static_cast<double>(most_samples())) {
-        refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1),
-                       fmt::format("ask for at most {}", most_samples())});
-    }
-    return {node, static_cast<std::size_t>(intervals) + 1};
+    Node const* const node = reading.given("study.samples_per_revolution");
+    std::uint64_t const per_turn = node != nullptr ? read_count(*node, setting("study.samples_per_revolution")) : 0;
+    if (per_turn == 0) return 0;
+    double const turn = drive_period(scene.parts, scene.inputs);
+    if (!std::isfinite(turn)) refuse_at_rest(*node, scene.parts, "study.samples");
+    double const turns = scene.chaos.span.revolutions ? scene.chaos.span.value : end_time / turn;
+    double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * turns));
+    if (intervals >= most) refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1), fmt::format("ask for at most {}", most)});
+    return static_cast<std::size_t>(intervals) + 1;
+}
+
+/// `count` times from 0 to end_time, both included; count is 0 or at least 2.
+std::vector<double> uniform_times(double end_time, std::size_t count) {
+    std::vector<double> times(count);
+    for (std::size_t i = 0; i < count; ++i) times[i] = end_time * static_cast<double>(i) / static_cast<double>(count - 1);
+    if (count > 0) times.back() = end_time;
+    return times;
 }
 
 void read_series(Node const& node, std::size_t place, Scene& scene) {
     if (scene.sample_times.empty()) {
         refuse(node, {"it is a time series and the study stores none",
-                      scene.study == StudyKind::ensemble ? "set study.samples_per_revolution or study.samples"
-                                                         : "remove it, or use kind = \"ensemble\""});
+                      scene.study == StudyKind::ensemble ? "set study.samples_per_revolution or study.samples" : "remove it, or use kind = \"ensemble\""});
     }
-    if (auto const why = why_unknown(static_cast<Series>(place), scene)) refuse(node, *why);
+    if (scene.integrator.method == Method::moreau_jean && selects(series_without_time_stepping, static_cast<Series>(place)))
+        refuse(node, {"moreau_jean knows impulses of whole steps, and no forces of an instant", "remove it, or use method = \"auto\""});
     scene.series |= Selection{1} << place;
 }
 
 void read_quantities(Node const& list, Scene& scene) {
-    if (list.type != Node::Type::array) {
-        refuse(list, {"not a list of names", "write for example [\"mean_normal_force\", \"energy_residual\"]"});
-    }
+    if (list.type != Node::Type::array) refuse(list, {"not a list of names", "write for example [\"mean_normal_force\", \"energy_residual\"]"});
     Outputs const& outputs = outputs_of(scene.parts.mechanism);
     std::vector<std::string_view> names;
     for (QuantityInfo const& quantity : outputs.quantities) names.emplace_back(quantity.name);
@@ -113,52 +120,26 @@ void read_quantities(Node const& list, Scene& scene) {
     }
 }
 
-void check_size(Sampling const& sampling, Scene const& scene) {
-    double const values = static_cast<double>(scene.members) * static_cast<double>(scene.sample_times.size()) *
-                          std::popcount(scene.series);
-    if (values > most_values) {
-        refuse(*sampling.node,
-               {fmt::format("the time series of {} members would hold {:.3g} numbers", scene.members, values),
-                fmt::format("ask for fewer samples, members or series, at most {:g} numbers", most_values)});
-    }
-}
-
-/// Why a study has no such key, where there is more to say than that.
-Problem foreign_key(Setting const& key, StudyKind kind) {
-    bool const sweep = kind == StudyKind::sweep;
-    if (key.name.starts_with("study.samples")) {
-        return {fmt::format("kind = \"{}\" stores no time series", name_of(kind)),
-                "remove it, or use kind = \"ensemble\""};
-    }
-    if (sweep && key.name == "study.duration") return {"a sweep records whole revolutions", "use study.revolutions"};
-    if (sweep && key.name == "study.section") return {"a sweep takes its sections at a crank angle", "use study.phase"};
-    if (sweep && key.name == "study.dt") {
-        return {"rescalings of a sweep fall on its sections", "use study.rescalings_per_revolution"};
-    }
-    std::vector<std::string> owners;
-    for (int i = 0; i < static_cast<int>(std::size(study_kind_names)); ++i) {
-        if ((key.studies & set_of(static_cast<StudyKind>(i))) != 0) owners.push_back(fmt::format("\"{}\"", study_kind_names[i]));
-    }
-    return {fmt::format("it has no effect with kind = \"{}\"", name_of(kind)), fmt::format("remove it, or use kind = {}", fmt::join(owners, " or "))};
-}
-
-/// Refuses what the study does not read, and the later one of two keys that say the same.
-void check_keys(Node const& root, StudyKind kind) {
-    for (Setting const& key : settings()) {
-        Node const* const node = root.find_path(key.name);
-        if (node == nullptr) continue;
-        if ((key.studies & set_of(kind)) == 0) refuse(*node, foreign_key(key, kind));
-        for (std::string_view const rival : key.rivals) {
-            // study.members may say what a design comes to.
-            Node const* const other = rival.empty() || rival == "study.members" ? nullptr : root.find_path(rival);
-            if (other == nullptr) continue;
-            bool const is_later = std::pair(node->order, node->line) > std::pair(other->order, other->line);
-            refuse(is_later ? *node : *other, {fmt::format("{} says it too", is_later ? rival : key.name), "remove one of the two"});
-        }
-    }
+void check_size(Reading const& reading) {
+    Scene const& scene = reading.scene;
+    double const values = static_cast<double>(scene.members) * static_cast<double>(scene.sample_times.size()) * std::popcount(scene.series);
+    if (values <= most_values) return;
+    refuse(*reading.given_of({"study.samples", "study.samples_per_revolution"}),
+           {fmt::format("the time series of {} members would hold {:.3g} numbers", scene.members, values),
+            fmt::format("ask for fewer samples, members or series, at most {:g} numbers", most_values)});
 }
 
 }  // namespace
+
+std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
+    if (scene.parts.rigid && selects(without_rigid_contact, quantity))
+        return Problem{"rigid contacts have neither peaks nor a potential", "remove it, or use another contact.law"};
+    if (!scene.parts.rigid && selects(of_rigid_contact, quantity))
+        return Problem{"only impacts of rigid contacts have a bound of their energy", "remove it, or use contact.law = \"rigid\""};
+    if (quantity == Quantity::switching_energy && makes_energy(scene.parts) && !scene.integrator.locate_modes)
+        return Problem{"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"};
+    return {};
+}
 
 std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs, double seconds) {
     double const turn = drive_period(parts, inputs);
@@ -174,62 +155,39 @@ std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs
                    fmt::format("stay below {:.2g} s, or run several members", most * turn)};
 }
 
-std::vector<double> uniform_times(double end_time, std::size_t count) {
-    std::vector<double> times(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        times[i] = end_time * static_cast<double>(i) / static_cast<double>(count - 1);
-    }
-    if (count > 0) times.back() = end_time;
-    return times;
+void read_study(Reading& reading) {
+    Scene& scene = reading.scene;
+    if (Node const* const kind = reading.given("study.kind")) read_value(*kind, setting("study.kind"), scene.study);
+    check_keys(reading);
+    reading.read_table("study");
+    read_design(reading);
+    if (scene.study == StudyKind::sweep) read_sweep(reading);
+    if (runs_to_end(scene.study)) apply_rules(reading, Known::orbits);
+    else read_orbits(reading);
+    apply_rules(reading, Known::study);
 }
 
-void read_study(Node const& root, Scene& scene) {
-    read_given(root, "study.kind", scene.study);
-    check_keys(root, scene.study);
-    read_bound(root, "study", scene);
-    read_design(root, scene);
-    if (scene.study == StudyKind::sweep) read_sweep(root, scene);
-    if (!runs_to_end(scene.study)) read_chaos(root, scene);
-}
-
-void read_recording(Node const& root, Scene& scene) {
+void read_recording(Reading& reading) {
+    Scene& scene = reading.scene;
     bool const samples = runs_to_end(scene.study);
-    EndTime const end = samples ? read_end_time(root, scene) : EndTime{run_length(scene).seconds, NAN};
-    RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
-    scene.integrator.end_time = end.seconds;
-    if (samples) scene.chaos.span = {end.seconds, false};
-    read_steps(root, scene, length);
-    check_drive_is_resolved(root, scene, length.longest);
-    Sampling const sampling = samples ? read_sampling(root, scene, end) : Sampling{};
-    scene.sample_times = uniform_times(end.seconds, sampling.count);
+    double const end = samples ? read_end_time(reading) : run_length(scene).seconds;
+    RunLength const length = samples ? RunLength{end, end, 0} : run_length(scene);
+    scene.integrator.end_time = end;
+    read_steps(reading, length);
+    check_drive_is_resolved(reading, length.longest);
+    if (samples) scene.sample_times = uniform_times(end, read_samples(reading, end)), scene.chaos.span = {end, false};
     if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;
-    if (Node const* const list = root.find_path("study.quantities")) read_quantities(*list, scene);
-    read_limits(root, scene);
+    Node const* const list = reading.given("study.quantities");
+    if (list != nullptr) read_quantities(*list, scene);
+    read_limits(reading);
     if (scene.study == StudyKind::tolerance && scene.quantities == 0) {
-        Node const* const list = root.find_path("study.quantities");
-        refuse_missing(list != nullptr ? *list : *root.find_path("study.kind"), "a quantity",
-                       "a tolerance study tells how quantities scatter",
+        refuse_missing(list != nullptr ? *list : *reading.given("study.kind"), "a quantity", "a tolerance study tells how quantities scatter",
                        "add quantities = [\"mean_normal_force\", \"friction_loss\"], or see `slideway list`");
     }
     // The audit runs anyway, and whoever takes such a method should see what it says.
     if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
-    check_size(sampling, scene);
-    read_store(root, scene);
-}
-
-void read_store(Node const& root, Scene& scene) {
-    if (scene.stores_members()) return;
-    Node const* const node = root.find_path("study.store");
-    if (scene.design.kind == DesignKind::saltelli) {
-        refuse(*node, {"sensitivity indices need every member's values", "use store = \"members\""});
-    }
-    if (!scene.sample_times.empty()) {
-        refuse(*node, {"time series are of single members", "remove the samples, or use store = \"members\""});
-    }
-    if (scene.quantities == 0) {
-        refuse(*node, {"there is no quantity to make statistics of",
-                       "add quantities = [\"mean_normal_force\"], or see `slideway list`"});
-    }
+    check_size(reading);
+    apply_rules(reading, Known::all);
 }
 
 }  // namespace slideway

@@ -94,7 +94,7 @@ bool is_number_with_unit(std::string_view text) {
 class MemberRows {
 public:
     /// Reads the header, and adds a variation for each of its keys.
-    MemberRows(CsvReader& rows, Node const& root, Scene& scene, MemberTable& table) : rows_(rows), scene_(scene), table_(table) {
+    MemberRows(CsvReader& rows, Reading& reading, MemberTable& table) : rows_(rows), scene_(reading.scene), table_(table) {
         for (std::string const& field : rows.fields()) {
             columns_.push_back(read_column(field_node(rows, fmt::format("column {}", columns_.size() + 1), field)));
             Column const& column = columns_.back();
@@ -102,9 +102,9 @@ public:
                 table.labelled += fmt::format("{}{}", table.labelled.empty() ? "" : ", ", column.header.text);
                 continue;
             }
-            check_varied(root, column.header, *column.key, scene, {"study.table has it for every member, so this has no effect", "change the table"});
-            require_part(scene.parts, *column.key);
-            scene.variations.push_back({column.key, {}, rows.line(), table.columns++});
+            check_varied(reading, column.header, *column.key, {"study.table has it for every member, so this has no effect", "change the table"});
+            require_part(scene_.parts, *column.key);
+            scene_.variations.push_back({column.key, {}, rows.line(), table.columns++});
         }
     }
 
@@ -213,7 +213,8 @@ private:
 
 }  // namespace
 
-void read_member_table(Node const& node, Node const& root, Scene& scene) {
+void read_member_table(Reading& reading, Node const& node) {
+    Scene& scene = reading.scene;
     std::string const& given = read_text_value(node);
     if (given.empty()) refuse(node, {"no file has this name", "write for example \"members.csv\""});
     auto const path = (std::filesystem::path(scene.path).parent_path() / given).lexically_normal();
@@ -227,14 +228,14 @@ void read_member_table(Node const& node, Node const& root, Scene& scene) {
     CsvReader rows(in, table->name);
     if (!rows.next())
         rows.fail("the table is empty (it needs a header and a row); write keys like joint.clearance above");
-    MemberRows members(rows, root, scene, *table);
+    MemberRows members(rows, reading, *table);
     while (rows.next()) members.add_row();
     members.check_texts();
     if (table->lines.empty()) rows.fail("the table has a header but no row (a row is a member); add one");
     if (table->columns == 0) rows.fail("the table has no column of numbers (its header names no key); write keys like joint.clearance above");
 
     std::uint64_t const count = table->rows();
-    Node const* const asked = root.find_path("study.members");
+    Node const* const asked = reading.given("study.members");
     if (asked == nullptr) scene.members = count;
     if (scene.members > count) {
         refuse(*asked, {fmt::format("study.table has {} rows", count), fmt::format("use a value <= {}, or leave it out", count)});

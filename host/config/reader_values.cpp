@@ -23,13 +23,6 @@ std::string shown_number(Node const& node, std::string_view unit) {
     return unit == "1" ? shown_value(node) : fmt::format("{} {}", shown_value(node), unit);
 }
 
-std::optional<Problem> outside(Range const& range, std::string_view meaning, std::string_view unit, double value) {
-    if (range.contains(value)) return std::nullopt;
-    std::string limits = fmt::format("{} {}", range.low_included ? ">=" : ">", with_unit(range.low, unit));
-    if (std::isfinite(range.high)) limits += fmt::format(" and <= {}", with_unit(range.high, unit));
-    return Problem{fmt::format("out of range for the {}", meaning), fmt::format("use a value {}", limits)};
-}
-
 }  // namespace
 
 double read_number(Node const& node, std::string_view unit) {
@@ -51,12 +44,6 @@ double read_number(Node const& node, std::string_view unit) {
     return value;
 }
 
-double read_number(Node const& node, std::string_view unit, std::string_view meaning, Range range) {
-    double const value = read_number(node, unit);
-    if (auto const problem = outside(range, meaning, unit, value)) refuse(node, shown_number(node, unit), *problem);
-    return value;
-}
-
 double read_number(Node const& node, Key const& key) {
     double const value = read_number(node, key.unit);
     if (auto const problem = broken_rule(key, value)) refuse(node, shown_number(node, key.unit), *problem);
@@ -72,7 +59,13 @@ std::vector<double> read_list(Node const& list, Key const& key, std::uint64_t mo
     return values;
 }
 
-double read_number(Node const& node, Setting const& setting) { return read_number(node, setting.unit, setting.what, setting.range); }
+double read_number(Node const& node, Setting const& row) {
+    double const value = read_number(node, row.unit);
+    if (row.range.contains(value)) return value;
+    std::string limits = fmt::format("{} {}", row.range.low_included ? ">=" : ">", with_unit(row.range.low, row.unit));
+    if (std::isfinite(row.range.high)) limits += fmt::format(" and <= {}", with_unit(row.range.high, row.unit));
+    refuse(node, shown_number(node, row.unit), {fmt::format("out of range for the {}", row.what), fmt::format("use a value {}", limits)});
+}
 
 std::uint64_t read_count(Node const& node, Setting const& setting) {
     return read_count(node, setting.what, setting.least, setting.most);
@@ -96,16 +89,6 @@ std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64
     auto const value = whole ? static_cast<std::uint64_t>(node.real) : static_cast<std::uint64_t>(node.integer);
     if (value < low || value > high) refuse(node, problem);
     return value;
-}
-
-std::optional<double> given_number(Node const& root, std::string_view name) {
-    Node const* const node = root.find_path(name);
-    return node != nullptr ? std::optional(read_number(*node, setting(name))) : std::nullopt;
-}
-
-std::optional<std::uint64_t> given_count(Node const& root, std::string_view name) {
-    Node const* const node = root.find_path(name);
-    return node != nullptr ? std::optional(read_count(*node, setting(name))) : std::nullopt;
 }
 
 bool read_boolean(Node const& node) {

@@ -100,7 +100,7 @@ std::string mechanism(Scene const& scene, Setting const&) {
 
 std::string law(Scene const& scene, Setting const&) {
     if (!info(scene.parts.mechanism).spatial && !scene.parts.rigid) return {};
-    return fmt::format("\"{}\"{}", contact_info(scene.parts).name, source_comment(scene.parts.rigid ? nullptr : module_of(scene.parts.law)));
+    return fmt::format("\"{}\"{}", contact_info(scene.parts).name, source_comment(contact_module(scene.parts)));
 }
 
 std::string number(Scene const& scene, Setting const& row) {

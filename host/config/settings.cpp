@@ -184,7 +184,8 @@ std::vector<Setting> with_physics(Settings rows) {
         all.push_back({.name = key.name, .type = Type::number, .unit = key.unit, .meaning = key.meaning, .preset = "-", .range = range_of(key.rule),
                        .value = {.text = resolved::number}, .physics = &key});
     }
-    static constexpr std::string_view tables[] = {"", "modules", "mechanism", "joint", "material", "way", "contact", "friction", "initial", "integrator", "study"};
+    static constexpr std::string_view tables[] = {"",        "modules",  "mechanism", "joint",      "material", "way",
+                                                  "contact", "friction", "initial",   "integrator", "study"};
     std::ranges::stable_sort(all, {}, [](Setting const& row) { return std::ranges::find(tables, row.table()) - tables; });
     return all;
 }
@@ -201,8 +202,7 @@ Setting const& setting(std::string_view name, Settings rows) {
 }
 
 bool has_effect(Setting const& setting, Method method, Parts const& parts) {
-    bool const has_faces = info(parts.mechanism).spatial && !parts.rigid;
-    return (setting.methods & set_of(method)) != 0 && (has_faces || !setting.of_faces);
+    return (setting.methods & set_of(method)) != 0 && (!setting.of_faces || has_faces(parts));
 }
 
 std::string value_text(Setting const&, double value) { return toml_number(value); }

@@ -32,32 +32,23 @@ struct Signature {
     friend bool operator==(Signature const&, Signature const&) = default;
 };
 
-ut_status add_basic(ut_unit const* unit, void* signature) {
-    char const* const name = ut_get_name(unit, UT_ASCII);
-    static_cast<Signature*>(signature)->powers[name != nullptr ? name : "?"] += 1;
-    return UT_SUCCESS;
+void add_power(void* signature, ut_unit const* basic, int power) {
+    char const* const name = ut_get_name(basic, UT_ASCII);
+    if (power != 0) static_cast<Signature*>(signature)->powers[name != nullptr ? name : "?"] += power;
 }
+ut_status add_basic(ut_unit const* unit, void* signature) { return add_power(signature, unit, 1), UT_SUCCESS; }
 ut_status add_product(ut_unit const*, int count, ut_unit const* const* basics, int const* powers, void* signature) {
-    for (int i = 0; i < count; ++i) {
-        if (powers[i] == 0) continue;
-        char const* const name = ut_get_name(basics[i], UT_ASCII);
-        static_cast<Signature*>(signature)->powers[name != nullptr ? name : "?"] += powers[i];
-    }
+    for (int i = 0; i < count; ++i) add_power(signature, basics[i], powers[i]);
     return UT_SUCCESS;
 }
 ut_status add_scaled(ut_unit const*, double scale, ut_unit const* underlying, double origin, void* signature);
-ut_status add_timestamp(ut_unit const*, ut_unit const*, double, void* signature) {
-    static_cast<Signature*>(signature)->proportional = false;
-    return UT_SUCCESS;
-}
-ut_status add_logarithm(ut_unit const*, double, ut_unit const*, void* signature) {
-    static_cast<Signature*>(signature)->proportional = false;
-    return UT_SUCCESS;
-}
+ut_status not_proportional(void* signature) { return static_cast<Signature*>(signature)->proportional = false, UT_SUCCESS; }
+ut_status add_timestamp(ut_unit const*, ut_unit const*, double, void* signature) { return not_proportional(signature); }
+ut_status add_logarithm(ut_unit const*, double, ut_unit const*, void* signature) { return not_proportional(signature); }
 constexpr ut_visitor signature_visitor{add_basic, add_product, add_scaled, add_timestamp, add_logarithm};
 
 ut_status add_scaled(ut_unit const*, double, ut_unit const* underlying, double origin, void* signature) {
-    if (origin != 0) static_cast<Signature*>(signature)->proportional = false;
+    if (origin != 0) not_proportional(signature);
     return ut_accept_visitor(underlying, &signature_visitor, signature);
 }
 
@@ -117,19 +108,11 @@ UnitSystem& unit_system() {
     return system;
 }
 
-struct Factor {
-    double value = 1;
-    std::optional<Problem> problem;
-};
-
 std::string example_of(std::string_view unit) {
-    static std::map<std::string_view, std::string_view> const examples = {
-        {"m", "mm"}, {"rad", "deg"}, {"rad/s", "rpm or deg/s"}, {"m/s", "mm/s"}, {"Pa", "GPa"},
-        {"kg", "g"}, {"s", "ms"},
-    };
+    static std::map<std::string_view, std::string_view> const examples = {{"m", "mm"}, {"rad", "deg"}, {"rad/s", "rpm or deg/s"}, {"m/s", "mm/s"},
+                                                                         {"Pa", "GPa"}, {"kg", "g"}, {"s", "ms"}};
     auto const found = examples.find(unit);
-    return found == examples.end() ? fmt::format("use a unit like {}", unit)
-                                   : fmt::format("use a unit like {} or {}", unit, found->second);
+    return found == examples.end() ? fmt::format("use a unit like {}", unit) : fmt::format("use a unit like {} or {}", unit, found->second);
 }
 
 /// What most scenes say, without the database: reading that is a sixth of the work of a small run.
@@ -142,25 +125,22 @@ std::optional<double> usual_factor(std::string_view given, std::string_view unit
     return found == std::end(usual) ? std::nullopt : std::optional(found->factor);
 }
 
-Factor factor_of(std::string const& given, std::string_view unit) {
-    if (auto const factor = usual_factor(given, unit)) return {*factor, std::nullopt};
-    std::string const advice = unit == "1" ? "use a plain number" : example_of(unit);
-    std::string const wanted = unit == "1" ? "a plain number" : std::string(unit);
+std::variant<double, Problem> factor_of(std::string const& given, std::string_view unit) {
+    if (auto const factor = usual_factor(given, unit)) return *factor;
+    std::string const advice = unit == "1" ? "use a plain number" : example_of(unit), wanted = unit == "1" ? "a plain number" : std::string(unit);
     UnitSystem& system = unit_system();
     std::scoped_lock const lock(system.mutex);
     Unit const from = system.parse(given);
-    if (!from) return {1, Problem{fmt::format("UDUNITS-2 knows no unit \"{}\"", given), advice}};
+    if (!from) return Problem{fmt::format("UDUNITS-2 knows no unit \"{}\"", given), advice};
     Unit const to = system.parse(std::string(unit));
     Signature const signature = signature_of(from);
-    if (!signature.proportional || signature != signature_of(to)) {
-        return {1, Problem{fmt::format("the unit \"{}\" does not convert to {}", given, wanted), advice}};
+    double value = NAN;
+    if (signature.proportional && signature == signature_of(to)) {
+        std::unique_ptr<cv_converter, decltype(&cv_free)> const converter(ut_get_converter(from.get(), to.get()), cv_free);
+        if (converter) value = cv_convert_double(converter.get(), 1.0);
     }
-    std::unique_ptr<cv_converter, decltype(&cv_free)> const converter(ut_get_converter(from.get(), to.get()), cv_free);
-    double const value = converter ? cv_convert_double(converter.get(), 1.0) : NAN;
-    if (!(value > 0) || !std::isfinite(value)) {
-        return {1, Problem{fmt::format("the unit \"{}\" does not convert to {}", given, wanted), advice}};
-    }
-    return {value, std::nullopt};
+    if (value > 0 && std::isfinite(value)) return value;
+    return Problem{fmt::format("the unit \"{}\" does not convert to {}", given, wanted), advice};
 }
 
 /// number · 10^shift, rounded once.
@@ -228,47 +208,35 @@ double UnitFactor::operator()(std::string_view number, double value) const {
 }
 
 std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit) {
-    if (!is_unit_text(given)) {
-        return Problem{"it is no unit", unit == "1" ? std::string("use a plain number") : example_of(unit)};
-    }
-    Factor const factor = factor_of(std::string(given), unit);
-    if (factor.problem) return *factor.problem;
-    return UnitFactor(factor.value);
+    if (!is_unit_text(given)) return Problem{"it is no unit", unit == "1" ? std::string("use a plain number") : example_of(unit)};
+    auto factor = factor_of(std::string(given), unit);
+    if (auto* const problem = std::get_if<Problem>(&factor)) return std::move(*problem);
+    return UnitFactor(std::get<double>(factor));
 }
 
 std::variant<double, Problem> to_si(std::string_view text, std::string_view unit) {
     constexpr std::string_view blanks = " \t";
-    std::string const example =
-        unit == "1" ? "use a plain number like 0.5" : fmt::format("use a text like \"1 {}\"", unit);
+    std::string const example = unit == "1" ? "use a plain number like 0.5" : fmt::format("use a text like \"1 {}\"", unit);
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
     text = text.substr(0, text.find_last_not_of(blanks) + 1);
     if (text.starts_with('+')) text.remove_prefix(1);
 
     double value = 0;
     auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem == std::errc::result_out_of_range) {
-        return Problem{"beyond the range of double", "use a number between 1e-307 and 1e308"};
-    }
+    if (problem == std::errc::result_out_of_range) return Problem{"beyond the range of double", "use a number between 1e-307 and 1e308"};
     if (problem != std::errc()) return Problem{"it does not begin with a number", example};
     if (!std::isfinite(value)) return Problem{"not a finite number", "use a finite number"};
 
     std::string_view const number = text.substr(0, static_cast<std::size_t>(end - text.data()));
     std::string_view rest = text.substr(number.size());
     rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-    if (rest.empty()) {
-        if (unit == "1") return value;
-        return Problem{"a text needs a unit",
-                       fmt::format("write the unit, \"{} {}\", or the number without quotes", number, unit)};
-    }
-    if (!is_unit_text(rest)) {
-        return Problem{fmt::format("what follows the number {} is no unit", number), meant(number, rest)};
-    }
-    Factor const factor = factor_of(std::string(rest), unit);
-    if (factor.problem) return *factor.problem;
-    double const si = scaled(number, value, factor.value);
-    if (!std::isfinite(si)) {
-        return Problem{fmt::format("beyond the range of double in {}", unit), "use another number"};
-    }
+    if (rest.empty() && unit == "1") return value;
+    if (rest.empty()) return Problem{"a text needs a unit", fmt::format("write the unit, \"{} {}\", or the number without quotes", number, unit)};
+    if (!is_unit_text(rest)) return Problem{fmt::format("what follows the number {} is no unit", number), meant(number, rest)};
+    auto factor = factor_of(std::string(rest), unit);
+    if (auto* const fault = std::get_if<Problem>(&factor)) return std::move(*fault);
+    double const si = scaled(number, value, std::get<double>(factor));
+    if (!std::isfinite(si)) return Problem{fmt::format("beyond the range of double in {}", unit), "use another number"};
     return si;
 }
 

@@ -11,11 +11,10 @@ namespace slideway {
 namespace {
 
 /// By the first row whose name a key's begins with, and whose unit is the key's; no row: any number is usual.
-struct UsualRow {
+constexpr struct {
     std::string_view name, unit;
     double low, high;
-};
-constexpr UsualRow usual_rows[] = {
+} usual_rows[] = {
     {"joint.clearance", "m", 1e-8, 1e-2},
     {"joint.wall", "m", 0, 1},
     {"contact.edge_radius", "m", 1e-7, 1},
@@ -46,24 +45,18 @@ constexpr UsualRow usual_rows[] = {
     {"friction.", "1", 0, 3},
 };
 
-UsualRow const* usual_row(Key const& key) {
-    auto const found = std::ranges::find_if(usual_rows, [&](UsualRow const& row) { return key.name.starts_with(row.name) && key.unit == row.unit; });
-    return found == std::end(usual_rows) ? nullptr : found;
-}
-
 /// Units in which people think, where scenes have SI.
-struct Slip {
+constexpr struct {
     std::string_view si, meant;
     double factor;
-};
-constexpr Slip slips[] = {
+} slips[] = {
     {"m", "mm", 1e-3},   {"m", "um", 1e-6},      {"rad", "deg", 0.017453292519943295},      {"m/s", "mm/s", 1e-3}, {"rad/s", "rpm", 0.10471975511965977},
     {"m/s2", "mm/s2", 1e-3}, {"m2", "mm2", 1e-6}, {"s", "ms", 1e-3}, {"kg", "g", 1e-3},  {"kg/m3", "g/cm3", 1e3}, {"Pa", "GPa", 1e9}, {"Pa", "MPa", 1e6}, {"N/m", "N/mm", 1e3},
 };
 
 /// "; did you mean \"1 mm\"?", if the number is usual in another unit.
 std::string proposal(Key const& key, double value) {
-    for (Slip const& slip : slips) {
+    for (auto const& slip : slips) {
         if (slip.si != key.unit || !usual_range(key).contains(std::abs(value) * slip.factor)) continue;
         return fmt::format("; did you mean \"{} {}\"?", value, slip.meant);
     }
@@ -73,18 +66,18 @@ std::string proposal(Key const& key, double value) {
 }  // namespace
 
 Range usual_range(Key const& key) {
-    UsualRow const* const row = usual_row(key);
-    return row == nullptr ? Range{} : Range{row->low, row->high};
+    auto const row = std::ranges::find_if(usual_rows, [&](auto const& one) { return key.name.starts_with(one.name) && key.unit == one.unit; });
+    return row == std::end(usual_rows) ? Range{} : Range{row->low, row->high};
 }
 
 std::optional<std::string> unusual(Key const& key, double value, bool has_unit) {
-    UsualRow const* const row = usual_row(key);
+    Range const usual = usual_range(key);
     // Who writes degrees means them; an angle may have any turns.
-    if (row == nullptr || usual_range(key).contains(std::abs(value)) || (has_unit && key.unit == "rad")) return {};
+    if (!std::isfinite(usual.high) || usual.contains(std::abs(value)) || (has_unit && key.unit == "rad")) return {};
     std::string const unit = key.unit == "1" ? "" : fmt::format(" {}", key.unit);
-    std::string const usually = row->low > 0                         ? fmt::format("{:g} to {:g}{}", row->low, row->high, unit)
-                                : std::isfinite(range_of(key.rule).low) ? fmt::format("up to {:g}{}", row->high, unit)
-                                                                     : fmt::format("within ±{:g}{}", row->high, unit);
+    std::string const usually = usual.low > 0                           ? fmt::format("{:g} to {:g}{}", usual.low, usual.high, unit)
+                                : std::isfinite(range_of(key.rule).low) ? fmt::format("up to {:g}{}", usual.high, unit)
+                                                                        : fmt::format("within ±{:g}{}", usual.high, unit);
     return fmt::format("is {} (usually {}){}", with_unit(value, key.unit), usually, has_unit ? "; is it meant?" : proposal(key, value));
 }
 

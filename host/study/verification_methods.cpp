@@ -25,13 +25,10 @@ void tighten(IntegratorSettings& settings) {
     settings.stiff_tolerance = std::max(settings.rtol, check_tightening * settings.stiff_tolerance);
 }
 
-/// Whether `auto` has a method for stiff members there; without one it is dopri5, or bs32.
-bool may_be_stiff(Parts const& parts) { return info(parts.mechanism).spatial && !parts.rigid; }
-
 /// By which method the tolerance is tightened: the study's own; where vibrating contacts deceive an explicit one, by that which damps them.
 Method tightened_method(Scene const& scene) {
     Method const own = scene.integrator.method;
-    return is_explicit_pair(own) && may_be_stiff(scene.parts) ? Method::automatic : own;
+    return is_explicit_pair(own) && has_faces(scene.parts) ? Method::automatic : own;
 }
 
 /// An explicit one that is not the study's, nor an arm of its `auto`.
@@ -42,12 +39,12 @@ Method other_method(Scene const& scene) {
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
 double cost_of(Parts const& parts, Method study, Method check) {
-    // Without a stiff method `auto` is dopri5.
-    bool const is_dopri5 = study == Method::automatic && !may_be_stiff(parts);
+    // Without faces there is no stiff method, and `auto` is dopri5.
+    bool const is_dopri5 = study == Method::automatic && !has_faces(parts);
     bool const high_order = is_dopri5 || study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
     if (study == check) return high_order ? 2.5 : 4;
     if (check == Method::automatic) return 1;  // a fifth in lasting contact, four times in impacts
-    return high_order || !may_be_stiff(parts) ? 3 : 10;
+    return high_order || !has_faces(parts) ? 3 : 10;
 }
 
 }  // namespace
@@ -73,7 +70,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost});
     };
     // Where forces jump, no tolerance brings a step across that does not end there: far below the study's, steps become too small.
-    bool const jumps = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
+    bool const jumps = has_switches(scene.parts);
     bool const locates = jumps && !scene.integrator.locate_modes;
     std::string_view const located = locates ? ", switches located" : "";
 

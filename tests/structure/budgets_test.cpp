@@ -41,12 +41,14 @@ TEST(Budgets, OfLines) {
     EXPECT_LE(Layer("kernels").lines(), 17'096u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'034u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'605u);
-    EXPECT_LE(Layer("host").lines(), 29'956u);
+    EXPECT_LE(Layer("host").lines(), 29'589u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
-    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 343u);
+    Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
+    EXPECT_LE(kernels.count(type).in_all, 343u);
+    EXPECT_LE(Layer("host").count(type).in_all, 362u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }
 

@@ -1,0 +1,203 @@
+#include "host/config/rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/config/reader.hpp"
+
+namespace slideway {
+namespace key_rule_table {
+namespace {
+
+using enum KeyRule::What;
+using R = Reading const&;
+
+bool rigid(R r) { return r.scene.parts.rigid; }
+bool spatial(R r) { return info(r.scene.parts.mechanism).spatial; }
+bool turns(R r) { return std::isfinite(drive_period(r.scene.parts, r.scene.inputs)); }
+bool to_end(R r) { return runs_to_end(r.scene.study); }
+bool is_sweep(R r) { return r.scene.study == StudyKind::sweep; }
+bool asks_for_exponents(R r) { return is_sweep(r) || r.scene.study == StudyKind::lyapunov; }
+bool of(R r, DesignKind design) { return r.scene.design.kind == design; }
+bool by(R r, Method method) { return r.scene.integrator.method == method; }
+bool by_restitution(R r) { return r.scene.parts.damping == Damping::restitution; }
+bool gives_restitution(R r) { return by_restitution(r) && r.given("contact.restitution"); }
+bool at_rest(R r) { return !turns(r); }
+bool by_phase(R r) { return (is_sweep(r) || r.scene.study == StudyKind::poincare) && r.scene.chaos.section.is_phase(); }
+bool no_values(R r) { return is_sweep(r) && !r.given("study.values"); }
+bool no_exponents(R r) { return asks_for_exponents(r) && r.scene.chaos.exponents == 0; }
+bool several_exponents(R r) { return asks_for_exponents(r) && r.scene.chaos.exponents > 1; }
+bool is_whole(Span const& span) { return span.revolutions && span.value == std::floor(span.value); }
+bool begins_anywhere(R r) { return is_sweep(r) && r.scene.chaos.continued && r.scene.chaos.transient.value != 0 && !is_whole(r.scene.chaos.transient); }
+bool steps_in_time(R r) { return by(r, Method::moreau_jean); }
+bool keeps_statistics(R r) { return !r.scene.stores_members(); }
+bool is_drawn(R r) { return of(r, DesignKind::mc) || of(r, DesignKind::lhs) || of(r, DesignKind::sobol); }
+bool not_grid(R r) { return !of(r, DesignKind::grid); }
+bool located(R r) { return r.scene.integrator.locate_modes; }
+bool can_locate(R r) { return has_effect(setting("integrator.locate_modes"), r.scene.integrator.method, r.scene.parts); }
+/// Steps leap over the switches that separate neighbours: in trials exponents came out up to half as large again.
+bool leaps(R r) { return has_switches(r.scene.parts) && r.scene.chaos.exponents > 0 && !located(r); }
+
+bool nothing_varies(R r) {
+    return std::ranges::none_of(r.scene.variations, [](Variation const& variation) {
+        return variation.column != Variation::no_column || variation.distribution.kind != Distribution::Kind::constant;
+    });
+}
+
+bool no_restitution(R r) {
+    constexpr std::string_view name = "contact.restitution";
+    return needs_restitution(r.scene.parts) && !r.given(name) && !varies(r.scene, name);
+}
+
+/// Whether nobody said how much contacts take that could take some by χ and have no damping of their own.
+bool rings(R r) {
+    LawInfo const& law = contact_info(r.scene.parts);
+    return spatial(r) && r.scene.parts.damping == Damping::point && has_group(law.groups, KeyGroup::surfaces) &&
+           !has_group(law.groups, KeyGroup::point_damping) && !r.given("contact.chi_surface");
+}
+
+bool has_one_section(R r) {
+    ChaosSettings const& chaos = r.scene.chaos;
+    double const turn = drive_period(r.scene.parts, r.scene.inputs);
+    return is_sweep(r) && chaos.exponents > 0 && chaos.transient.value == 0 && chaos.span.seconds(turn) < 2 * turn;
+}
+
+constexpr std::string_view replaced = "contact.restitution replaces it", one_of_two = "remove one of the two";
+constexpr std::string_view no_series = "kind = \"{study}\" stores no time series", with_series = "remove it, or use kind = \"ensemble\"";
+constexpr std::string_view values_of_sweep = "a sweep needs its values", give_values = "give study.values, or study.from, study.to and study.points";
+constexpr std::string_view no_revolutions = "{rest}, so there are no revolutions", no_angle = "{rest}, so no crank angle comes round";
+constexpr std::string_view drawn_designs = "use \"mc\", \"lhs\" or \"sobol\"", uncorrelated = "remove it, or use \"mc\", \"lhs\" or \"sobol\"";
+constexpr std::string_view with_design = "with design \"{design}\"", without_exponents = "with study.exponents = 0";
+constexpr std::string_view rescaled = "with several exponents: their neighbours are rescaled every time";
+constexpr std::string_view columns_begin = "with start = \"continue\" columns begin at the crank angle where the one before ended",
+                           whole_transient = "use a whole number of study.transient_revolutions";
+
+using enum Known;
+
+constexpr KeyRule rows[] = {
+    {mechanism, "contact.law", [](R r) { return rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, excludes,
+     "the contacts of a {mechanism} give way", "use another law, or mechanism.kind = {rigid_mechanisms}"},
+    {mechanism, "mechanism.crank", [](R r) { return !info(r.scene.parts.mechanism).free_crank; }, foreign},
+    {mechanism, "way", [](R r) { return !spatial(r); }, foreign},
+    {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, foreign},
+    {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r); }, excludes,
+     "the corners of a {mechanism} have one law", "remove it, or use \"rigid\""},
+
+    {contacts, "contact.eta", gives_restitution, excludes, replaced, one_of_two},
+    {contacts, "contact.chi_line", gives_restitution, excludes, replaced, one_of_two},
+    {contacts, "contact.chi_surface", gives_restitution, excludes, replaced, one_of_two},
+
+    {variation, "friction.", [](R r) { return !r.scene.parts.friction; }, excludes, "friction is off", "add a [friction] table"},
+    {variation, "contact.eta", by_restitution, excludes, replaced, one_of_two},
+    {variation, "contact.chi_", by_restitution, excludes, replaced, one_of_two},
+
+    {study_kind, "study.samples_per_revolution", [](R r) { return !to_end(r); }, excludes, no_series, with_series},
+    {study_kind, "study.samples", [](R r) { return !to_end(r); }, excludes, no_series, with_series},
+    {study_kind, "study.duration", is_sweep, excludes, "a sweep records whole revolutions", "use study.revolutions"},
+    {study_kind, "study.section", is_sweep, excludes, "a sweep takes its sections at a crank angle", "use study.phase"},
+    {study_kind, "study.dt", is_sweep, excludes, "rescalings of a sweep fall on its sections", "use study.rescalings_per_revolution"},
+    {study_kind, "study.max_crossings", [](R r) { return r.scene.study == StudyKind::poincare && !r.given("study.section"); }, excludes,
+     "a crank angle comes once a revolution", "remove it, or give study.section"},
+    {study_kind, "study.kind", [](R r) { return asks_for_exponents(r) && !info(r.scene.parts.mechanism).has_exponents; }, excludes,
+     "nothing drives a {mechanism}, and no exponents are computed of it", "use \"ensemble\" or \"poincare\""},
+    {study_kind, "study.parameter", is_sweep, needs, "a sweep changes one key", "add parameter = \"joint.clearance\""},
+    {study_kind, "study.from", no_values, needs, values_of_sweep, give_values},
+    {study_kind, "study.to", no_values, needs, values_of_sweep, give_values},
+    {study_kind, "study.points", no_values, needs, "how many columns there are", "add points = 50"},
+
+    {members, "study.design", [](R r) { return is_sweep(r) && !is_drawn(r); }, excludes, "a sweep draws the starts of its columns", drawn_designs},
+    {members, "study.design", [](R r) { return of(r, DesignKind::saltelli) && !to_end(r); }, excludes,
+     "kind = \"{study}\" asks for no sensitivities", "use \"mc\", \"lhs\" or \"sobol\", or kind = \"tolerance\""},
+    {members, "study.design", [](R r) { return !of(r, DesignKind::mc) && !of(r, DesignKind::table) && nothing_varies(r); }, excludes,
+     "nothing varies", "add keys to [study.vary], or remove it"},
+    {members, "study.table", [](R r) { return of(r, DesignKind::table); }, needs,
+     "the design is the rows of a table", "add table = \"members.csv\"", "study.design"},
+    {members, "study.table", [](R r) { return !of(r, DesignKind::table); }, excludes,
+     "design \"{design}\" reads no table", "use design = \"table\", or remove it"},
+    {members, "study.base", [](R r) { return of(r, DesignKind::saltelli); }, needs,
+     "\"saltelli\" has base rows of one member and one more of each key and another", "add base = 256", "study.design"},
+    {members, "study.base", [](R r) { return is_drawn(r) && !r.given("study.members"); }, excludes,
+     "design \"{design}\" has no rows of members, and study.members is not given", "add members = 1024, or use design = \"saltelli\""},
+    {members, "study.base", [](R r) { return !of(r, DesignKind::saltelli); }, idle, with_design},
+    {members, "study.levels", not_grid, idle, with_design},
+    {members, "study.correlation", [](R r) { return of(r, DesignKind::saltelli); }, excludes,
+     "sensitivities of design \"saltelli\" are of keys that vary alone", uncorrelated},
+    {members, "study.correlation", [](R r) { return of(r, DesignKind::grid); }, excludes, "a grid takes its levels of each key alone", uncorrelated},
+
+    {orbits, "study.transient_revolutions", at_rest, excludes, no_revolutions, "use study.Ttr instead"},
+    {orbits, "study.revolutions", at_rest, excludes, no_revolutions, "use study.duration instead"},
+    {orbits, "study.phase", [](R r) { return at_rest(r) && by_phase(r) && !is_sweep(r); }, cannot, no_angle, "give study.section"},
+    {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r) && r.scene.parts.free_crank; }, cannot, no_angle, "use crank = \"driven\""},
+    {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r); }, cannot, no_angle, "give the crank a speed"},
+    {orbits, "study.rescalings_per_revolution", at_rest, excludes, no_revolutions, "use study.dt instead"},
+    {orbits, "study.d0", no_exponents, idle, without_exponents},
+    {orbits, "study.d0_lower", no_exponents, idle, without_exponents},
+    {orbits, "study.d0_upper", no_exponents, idle, without_exponents},
+    {orbits, "study.rescalings_per_revolution", no_exponents, idle, without_exponents},
+    {orbits, "study.d0_lower", several_exponents, idle, rescaled},
+    {orbits, "study.d0_upper", several_exponents, idle, rescaled},
+    {orbits, "study.revolutions", [](R r) { return is_sweep(r) && !is_whole(r.scene.chaos.span); }, excludes,
+     "a sweep records whole revolutions", "use an integer"},
+    {orbits, "study.Ttr", begins_anywhere, excludes, columns_begin, whole_transient},
+    {orbits, "study.transient_revolutions", begins_anywhere, excludes, columns_begin, whole_transient},
+    {orbits, "study.start", [](R r) { return is_sweep(r) && r.scene.chaos.continued && is_of_start(*r.scene.chaos.parameter); }, excludes,
+     "{parameter} is where a member starts, and columns start where the one before ended", "use start = \"fresh\", or another parameter"},
+    {orbits, "study.start",
+     [](R r) { return r.scene.chaos.continued && info(r.scene.parts.mechanism).drive == DriveKind::carriage && r.scene.chaos.section.level != 0; }, excludes,
+     "a carriage starts at phase 0, and columns would end at study.phase", "use start = \"fresh\", or phase = 0"},
+    {orbits, "study.revolutions", has_one_section, cannot, "exponents are taken between its sections, and there is one", "use at least 2, or a transient"},
+    {study, "contact.law", [](R r) { return rigid(r) && no_restitution(r); }, excludes, "rigid contacts need contact.restitution", "give it, from 0 to 1"},
+    {study, "contact.law", no_restitution, excludes, "{law} needs contact.restitution", "give it, from 0 to 1"},
+    {study, "contact.law", [](R r) { return spatial(r) && !r.given("contact.law"); }, warns, "contact.law is not given and is \"{law}\": {words}", "name it"},
+    {study, "contact.chi_surface", rings, warns,
+     "neither contact.restitution nor contact.chi_surface is given: contacts of \"{law}\" then take no energy, and what touches rings for ever",
+     "give one of the two"},
+
+    {method, "integrator.method", [](R r) { return steps_in_time(r) && !rigid(r); }, excludes,
+     "time stepping is of rigid contacts", "use contact.law = \"rigid\", or method = \"auto\""},
+    {method, "integrator.method", [](R r) { return by(r, Method::rk4) && by_restitution(r); }, excludes,
+     "contact.restitution wants the speed at each touch, where the method's steps do not end", "use method {methods}"},
+    {method, "integrator.method", [](R r) { return by(r, Method::ros34pw2) && rigid(r); }, excludes,
+     "the method has no Jacobian of a {mechanism} with rigid contacts", "use method {methods}"},
+    {method, "integrator.method", [](R r) { return by(r, Method::ros34pw2) && !spatial(r); }, excludes,
+     "the method has no Jacobian of a {mechanism}", "use method {methods}"},
+    {method, "integrator.method", [](R r) { return rigid(r) && (by(r, Method::bs32) || by(r, Method::dop853)); }, excludes,
+     "rigid contacts end steps so often that a method of another order gains nothing", "use method {methods}"},
+
+    {integrator, "integrator.method", [](R r) { return has_fixed_step(r.scene.integrator.method) && !r.given("integrator.step"); }, excludes,
+     "the method has no step control", "give integrator.step"},
+    {integrator, "integrator.method", [](R r) { return steps_in_time(r) && r.scene.chaos.exponents > 0; }, excludes,
+     "time stepping takes no neighbours along, which exponents are of", "use method {pairs}"},
+    {integrator, "integrator.method", [](R r) { return steps_in_time(r) && r.scene.chaos.section.on == SectionSurface::On::impacts; }, excludes,
+     "time stepping knows impulses of whole steps, and no impacts", "use method {pairs}"},
+    {integrator, "friction.static",
+     [](R r) { return steps_in_time(r) && r.scene.parts.friction && r.scene.inputs.friction_static != r.scene.inputs.friction_kinetic; },
+     idle, "with method moreau_jean, whose contacts stick up to friction.kinetic"},
+    {integrator, "integrator.locate_modes", [](R r) { return always_locates(r.scene) && !located(r); }, excludes,
+     "verner65 ends its steps at contacts in any case", "remove it, or use method \"dopri5\""},
+    {integrator, "integrator.locate_modes", [](R r) { return located(r) && rigid(r); }, excludes,
+     "rigid contacts end steps at their touches already", "remove it"},
+    {integrator, "integrator.locate_modes", [](R r) { return located(r) && !spatial(r); }, excludes, "nothing switches in a {mechanism}", "remove it"},
+    {integrator, "integrator.locate_modes", [](R r) { return located(r) && !contact_info(r.scene.parts).switches; }, excludes,
+     "contact.law \"{law}\" has no modes to switch between", "remove it"},
+    {integrator, "integrator.locate_modes", [](R r) { return located(r) && by_restitution(r); }, excludes,
+     "contact.restitution ends steps at its touches already", one_of_two},
+    {integrator, "integrator.locate_modes", [](R r) { return located(r) && !can_locate(r); }, excludes,
+     "{method} cannot end its steps there", "use method {any_pair}"},
+    {integrator, "integrator.locate_modes", [](R r) { return leaps(r) && can_locate(r); }, warns, "integrator.locate_modes is false{leaping}", "leave it out"},
+    {integrator, "integrator.method", [](R r) { return leaps(r) && !can_locate(r); }, warns, "integrator.method is {method}{leaping}", "use method {any_pair}"},
+
+    {all, "study.store", [](R r) { return keeps_statistics(r) && of(r, DesignKind::saltelli); }, excludes,
+     "sensitivity indices need every member's values", "use store = \"members\""},
+    {all, "study.store", [](R r) { return keeps_statistics(r) && !r.scene.sample_times.empty(); }, excludes,
+     "time series are of single members", "remove the samples, or use store = \"members\""},
+    {all, "study.store", [](R r) { return keeps_statistics(r) && r.scene.quantities == 0; }, excludes,
+     "there is no quantity to make statistics of", "add quantities = [\"mean_normal_force\"], or see `slideway list`"},
+};
+
+}  // namespace
+}  // namespace key_rule_table
+
+KeyRules key_rules() { return key_rule_table::rows; }
+
+}  // namespace slideway
