@@ -56,7 +56,7 @@ bool is_result(std::string const& path) {
 }
 
 Column column_of(MemoryFile const& file, DataFile::Variable const& variable, std::string const& name) {
-    Column column{name, file.text(variable.id, "units"), file.text(variable.id, "long_name"), file.dimension_names(variable), variable.shape,
+    Column column{name, file.text(variable.id, "units"), file.text(variable.id, "long_name"), variable.dimensions, variable.shape,
                   static_cast<Column::Type>(variable.type), file.data(variable.id)};
     return column;
 }

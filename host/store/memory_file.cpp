@@ -13,13 +13,10 @@ namespace slideway {
 /// A file or one of its groups.  The file owns them all: handles share it.
 struct MemoryFile::Node {
     struct Stored {
-        std::string name;
-        Type type;
-        std::vector<int> dimensions;
-        std::vector<std::size_t> shape;
-        std::vector<std::byte> data;
-        std::vector<Attribute> attributes;
-        bool fill = false;
+        Variable variable;
+        bool fill;
+        std::vector<std::byte> data = {};
+        std::vector<Attribute> attributes = {};
     };
 
     std::string path, name;
@@ -30,7 +27,8 @@ struct MemoryFile::Node {
     std::vector<Attribute> attributes;
     std::vector<std::unique_ptr<Node>> groups;
 
-    Stored& variable(int id) { return variables.at(static_cast<std::size_t>(id)); }
+    Stored& stored(int id) { return variables.at(static_cast<std::size_t>(id)); }
+    std::vector<Attribute>& attributes_of(int id) { return id == global ? attributes : stored(id).attributes; }
 };
 
 namespace {
@@ -78,32 +76,22 @@ int MemoryFile::add_dimension(std::string const& name, std::size_t length) {
 }
 
 int MemoryFile::add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill) {
-    Node::Stored stored{name, type, {dimensions.begin(), dimensions.end()}, {}, {}, {}, fill};
-    std::size_t size = size_of(type);
-    for (int const dimension : dimensions) {
-        stored.shape.push_back(node_->all->at(static_cast<std::size_t>(dimension)).length);
-        size *= stored.shape.back();
+    Node::Stored stored{{static_cast<int>(node_->variables.size()), name, type, {}}, fill};
+    for (int const number : dimensions) {
+        Dimension const& dimension = node_->all->at(static_cast<std::size_t>(number));
+        stored.variable.shape.push_back(dimension.length);
+        stored.variable.dimensions.push_back(dimension.name);
     }
-    stored.data.resize(size);
-    if (fill && type == Type::float64) {
-        for (std::size_t at = 0; at < size; at += sizeof nan) std::memcpy(stored.data.data() + at, &nan, sizeof nan);
-    }
+    stored.data.resize(stored.variable.size() * size_of(type));
+    for (std::size_t at = 0; fill && type == Type::float64 && at < stored.data.size(); at += sizeof nan) std::memcpy(stored.data.data() + at, &nan, sizeof nan);
     node_->variables.push_back(std::move(stored));
-    return static_cast<int>(node_->variables.size()) - 1;
+    return node_->variables.back().variable.id;
 }
 
-std::vector<MemoryFile::Attribute> const& MemoryFile::attributes(int variable) const {
-    return variable == global ? node_->attributes : node_->variable(variable).attributes;
-}
-
-MemoryFile::Attribute const* MemoryFile::find(int variable, std::string const& name) const {
-    auto const& list = attributes(variable);
-    auto const found = std::ranges::find(list, name, &Attribute::name);
-    return found == list.end() ? nullptr : &*found;
-}
+std::vector<MemoryFile::Attribute> const& MemoryFile::attributes(int variable) const { return node_->attributes_of(variable); }
 
 void MemoryFile::put(int variable, std::string const& name, Value const& value) {
-    auto& list = variable == global ? node_->attributes : node_->variable(variable).attributes;
+    auto& list = node_->attributes_of(variable);
     auto const found = std::ranges::find(list, name, &Attribute::name);
     if (found != list.end())
         found->value = value;
@@ -112,27 +100,22 @@ void MemoryFile::put(int variable, std::string const& name, Value const& value) 
 }
 
 void MemoryFile::write(int variable, void const* values) {
-    auto& data = node_->variable(variable).data;
+    auto& data = node_->stored(variable).data;
     if (!data.empty()) std::memcpy(data.data(), values, data.size());
 }
 
-void MemoryFile::read(int variable, void* values) const {
-    auto const& data = node_->variable(variable).data;
-    if (!data.empty()) std::memcpy(values, data.data(), data.size());
-}
-
 void MemoryFile::write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void const* values) {
-    Node::Stored& stored = node_->variable(variable);
-    require_within(path(), stored.shape, start, count);
-    for_each_stretch(stored.shape, start, count, size_of(stored.type), [&](std::size_t place, std::size_t from, std::size_t bytes) {
+    Node::Stored& stored = node_->stored(variable);
+    require_within(path(), stored.variable.shape, start, count);
+    for_each_stretch(stored.variable.shape, start, count, size_of(stored.variable.type), [&](std::size_t place, std::size_t from, std::size_t bytes) {
         std::memcpy(stored.data.data() + place, static_cast<std::byte const*>(values) + from, bytes);
     });
 }
 
 void MemoryFile::read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const {
-    Node::Stored const& stored = node_->variable(variable);
-    require_within(path(), stored.shape, start, count);
-    for_each_stretch(stored.shape, start, count, size_of(stored.type), [&](std::size_t place, std::size_t to, std::size_t bytes) {
+    Node::Stored const& stored = node_->stored(variable);
+    require_within(path(), stored.variable.shape, start, count);
+    for_each_stretch(stored.variable.shape, start, count, size_of(stored.variable.type), [&](std::size_t place, std::size_t to, std::size_t bytes) {
         std::memcpy(static_cast<std::byte*>(values) + to, stored.data.data() + place, bytes);
     });
 }
@@ -177,47 +160,32 @@ std::vector<MemoryFile::Dimension> MemoryFile::dimensions() const {
 
 std::vector<MemoryFile::Variable> MemoryFile::variables() const {
     std::vector<Variable> list;
-    for (Node::Stored const& stored : node_->variables) list.push_back({static_cast<int>(list.size()), stored.name, stored.type, stored.shape});
+    for (Node::Stored const& stored : node_->variables) list.push_back(stored.variable);
     return list;
 }
 
-std::vector<std::string> MemoryFile::dimension_names(Variable const& variable) const {
-    std::vector<std::string> names;
-    for (int const number : node_->variable(variable.id).dimensions) names.push_back((*node_->all)[static_cast<std::size_t>(number)].name);
-    return names;
+std::optional<MemoryFile::Value> MemoryFile::attribute(int variable, std::string const& name) const {
+    auto const& list = attributes(variable);
+    auto const found = std::ranges::find(list, name, &Attribute::name);
+    return found == list.end() ? std::nullopt : std::optional(found->value);
 }
 
-std::string MemoryFile::text(int variable, std::string const& name) const {
-    Attribute const* const found = find(variable, name);
-    auto const* const text = found != nullptr ? std::get_if<std::string>(&found->value) : nullptr;
-    return text != nullptr ? *text : std::string();
-}
-
-bool MemoryFile::number(int variable, std::string const& name, double& value) const {
-    Attribute const* const found = find(variable, name);
-    if (found == nullptr) return false;
-    if (auto const* const real = std::get_if<double>(&found->value)) return value = *real, true;
-    if (auto const* const whole = std::get_if<int>(&found->value)) return value = *whole, true;
-    return false;
-}
-
-std::byte const* MemoryFile::data(int variable) const { return node_->variable(variable).data.data(); }
+std::byte const* MemoryFile::data(int variable) const { return node_->stored(variable).data.data(); }
 
 void MemoryFile::copy_to(DataFile& to) const {
     for (Attribute const& attribute : node_->attributes) to.put(global, attribute.name, attribute.value);
     for (Dimension const& dimension : dimensions()) to.add_dimension(dimension.name, dimension.length);
     std::vector<int> ids;
-    for (Variable const& variable : variables()) {
+    for (Node::Stored const& stored : node_->variables) {
         std::vector<int> shape;
-        for (std::string const& name : dimension_names(variable)) shape.push_back(to.dimension(name));
-        ids.push_back(to.add_variable(variable.name, variable.type, shape, node_->variable(variable.id).fill));
-        for (Attribute const& attribute : attributes(variable.id)) to.put(ids.back(), attribute.name, attribute.value);
+        for (std::string const& name : stored.variable.dimensions) shape.push_back(to.dimension(name));
+        ids.push_back(to.add_variable(stored.variable.name, stored.variable.type, shape, stored.fill));
+        for (Attribute const& attribute : stored.attributes) to.put(ids.back(), attribute.name, attribute.value);
     }
-    to.end_definitions();
-    for (Variable const& variable : variables()) {
-        if (variable.size() == 0) continue;
+    for (auto const& [variable, fill, data, attributes] : node_->variables) {
+        if (data.empty()) continue;
         std::vector<std::size_t> const start(variable.shape.size(), 0);
-        to.write(ids[static_cast<std::size_t>(variable.id)], start, variable.shape, data(variable.id));
+        to.write(ids[static_cast<std::size_t>(variable.id)], start, variable.shape, data.data());
     }
     for (auto const& inner : node_->groups) MemoryFile({node_, inner.get()}).copy_to(*to.add_group(inner->name));
 }

@@ -18,10 +18,8 @@ public:
     int add_dimension(std::string const& name, std::size_t length) override;
     int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false) override;
     void put(int variable, std::string const& name, Value const& value) override;
-    void end_definitions() override {}
     using DataFile::read;
     void write(int variable, void const* values) override;
-    void read(int variable, void* values) const override;
     void write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void const* values) override;
     void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const override;
     std::unique_ptr<DataFile> add_group(std::string const& name) override;
@@ -30,14 +28,8 @@ public:
     int dimension(std::string const& name) const override;
     std::vector<Dimension> dimensions() const override;
     std::vector<Variable> variables() const override;
-    std::vector<std::string> dimension_names(Variable const& variable) const override;
-    std::string text(int variable, std::string const& name) const override;
-    bool number(int variable, std::string const& name, double& value) const override;
+    std::optional<Value> attribute(int variable, std::string const& name) const override;
 
-    struct Attribute {
-        std::string name;
-        Value value;
-    };
     /// As they were put.
     std::vector<Attribute> const& attributes(int variable) const;
     /// All values of a variable in C order; valid as long as a handle is.
@@ -52,7 +44,6 @@ public:
 private:
     struct Node;
     explicit MemoryFile(std::shared_ptr<Node> node) : node_(std::move(node)) {}
-    Attribute const* find(int variable, std::string const& name) const;
 
     std::shared_ptr<Node> node_;
 };

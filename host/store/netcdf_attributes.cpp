@@ -54,29 +54,21 @@ std::vector<std::byte> NetcdfFile::attribute_bytes(int variable, std::string con
     return bytes;
 }
 
-/// One that cannot be read is not taken for none.
-bool NetcdfFile::has_attribute(int variable, std::string const& name, int& type, std::size_t& length) const {
+std::optional<DataFile::Value> NetcdfFile::attribute(int variable, std::string const& name) const {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
     int const code = nc_inq_att(id_, variable, name.c_str(), &type, &length);
-    if (code != NC_ENOTATT) require(code, "read attribute " + name);
-    return code == NC_NOERR;
-}
-
-std::string NetcdfFile::text(int variable, std::string const& name) const {
-    std::size_t length = 0;
-    nc_type type = NC_NAT;
-    if (!has_attribute(variable, name, type, length)) return {};
-    if (type == NC_STRING && length == 1) return strings(variable, name, 1).front();
-    if (type != NC_CHAR) return {};
-    std::string value(length, '\0');
-    require(nc_get_att_text(id_, variable, name.c_str(), value.data()), "read attribute " + name);
-    return value;
-}
-
-bool NetcdfFile::number(int variable, std::string const& name, double& value) const {
-    std::size_t length = 0;
-    nc_type type = NC_NAT;
-    if (!has_attribute(variable, name, type, length) || type == NC_CHAR || length != 1) return false;
-    return nc_get_att_double(id_, variable, name.c_str(), &value) == NC_NOERR;
+    if (code == NC_ENOTATT) return {};
+    require(code, "read attribute " + name);  // one that cannot be read is not taken for none
+    if (type == NC_CHAR) {
+        std::string value(length, '\0');
+        require(nc_get_att_text(id_, variable, name.c_str(), value.data()), "read attribute " + name);
+        return value;
+    }
+    if (length != 1) return {};
+    if (type == NC_STRING) return strings(variable, name, 1).front();
+    double number = 0;
+    return nc_get_att_double(id_, variable, name.c_str(), &number) == NC_NOERR ? std::optional<Value>(number) : std::nullopt;
 }
 
 }  // namespace slideway

@@ -116,13 +116,14 @@ std::vector<std::byte> NetcdfFile::close_to_bytes() {
     return bytes;
 }
 
-NetcdfFile NetcdfFile::open_in_memory(std::string const& name, std::span<std::byte const> bytes) {
-    auto* const memory = const_cast<std::byte*>(bytes.data());  // it only reads
-    return {name, number_of(name, "open", [&](int* id) { return nc_open_mem(name.c_str(), NC_NOWRITE, bytes.size(), memory, id); })};
+NetcdfFile NetcdfFile::open_in_memory(std::string const& name, std::vector<std::byte> bytes) {
+    NetcdfFile file(name, number_of(name, "open", [&](int* id) { return nc_open_mem(name.c_str(), NC_NOWRITE, bytes.size(), bytes.data(), id); }));
+    file.bytes_ = std::move(bytes);  // they stay where they are
+    return file;
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
-    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)), kind_(other.kind_) {}
+    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)), kind_(other.kind_), bytes_(std::move(other.bytes_)) {}
 
 NetcdfFile::~NetcdfFile() {
     if (id_ == closed || kind_ == Kind::group) return;
@@ -179,15 +180,11 @@ void NetcdfFile::put(int variable, std::string const& name, Value const& value) 
 
 void NetcdfFile::flush() { require(nc_sync(id_), "write (disk full?)"); }
 
-void NetcdfFile::end_definitions() { require(nc_enddef(id_), "write the header"); }
-
 void NetcdfFile::write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void const* values) {
     require(nc_put_vara(id_, variable, start.data(), count.data(), values), "write (disk full?)");
 }
 
 void NetcdfFile::write(int variable, void const* values) { require(nc_put_var(id_, variable, values), "write (disk full?)"); }
-
-void NetcdfFile::read(int variable, void* values) const { require(nc_get_var(id_, variable, values), "read"); }
 
 void NetcdfFile::read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const {
     require(nc_get_vara(id_, variable, start.data(), count.data(), values), "read");
@@ -242,17 +239,12 @@ std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
         auto const type = std::ranges::find(type_table, number, &StoredType::number);
         if (type == std::end(type_table)) continue;  // `uncovered` tells of it
         Variable& variable = variables.emplace_back(Variable{i, std::move(name), static_cast<Type>(type - std::begin(type_table)), {}});
-        for (int d = 0; d < rank; ++d) require(nc_inq_dimlen(id_, dimensions[d], &variable.shape.emplace_back()), of_header);
+        for (int d = 0; d < rank; ++d) {
+            std::size_t& length = variable.shape.emplace_back();
+            variable.dimensions.push_back(name_by([&](char* text) { return nc_inq_dim(id_, dimensions[d], text, &length); }));
+        }
     }
     return variables;
-}
-
-std::vector<std::string> NetcdfFile::dimension_names(Variable const& variable) const {
-    int dimensions[NC_MAX_VAR_DIMS];
-    require(nc_inq_vardimid(id_, variable.id, dimensions), of_header);
-    std::vector<std::string> names;
-    for (std::size_t d = 0; d < variable.shape.size(); ++d) names.push_back(name_by([&](char* name) { return nc_inq_dimname(id_, dimensions[d], name); }));
-    return names;
 }
 
 }  // namespace slideway

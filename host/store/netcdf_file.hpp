@@ -18,8 +18,7 @@ public:
     /// In memory; `name` stands for the path in messages.  `close_to_bytes` gives what the file would hold.
     static NetcdfFile create_in_memory(std::string const& name);
     std::vector<std::byte> close_to_bytes();
-    /// To read from `bytes`, which must outlive the file.
-    static NetcdfFile open_in_memory(std::string const& name, std::span<std::byte const> bytes);
+    static NetcdfFile open_in_memory(std::string const& name, std::vector<std::byte> bytes);  // to read
     NetcdfFile(NetcdfFile&& other) noexcept;
     NetcdfFile& operator=(NetcdfFile&&) = delete;
     ~NetcdfFile() override;  // closes; what fails then is lost: call close()
@@ -29,12 +28,10 @@ public:
     int add_dimension(std::string const& name, std::size_t length) override;
     int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false) override;
     void put(int variable, std::string const& name, Value const& value) override;
-    void end_definitions() override;
     void flush();  // to the disk
 
     using DataFile::read;
     void write(int variable, void const* values) override;
-    void read(int variable, void* values) const override;
     void write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void const* values) override;
     void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const override;
 
@@ -47,12 +44,10 @@ public:
 
     std::vector<Dimension> dimensions() const override;
     std::vector<Variable> variables() const override;  // as they were defined; by name if made in memory
-    std::vector<std::string> dimension_names(Variable const& variable) const override;
+    std::optional<Value> attribute(int variable, std::string const& name) const override;
     std::vector<std::string> attribute_names(int variable) const;  // sorted
     /// What an attribute is, to the last bit: netCDF's number of its type, the number of its values, the values.
     std::vector<std::byte> attribute_bytes(int variable, std::string const& name) const;
-    std::string text(int variable, std::string const& name) const override;
-    bool number(int variable, std::string const& name, double& value) const override;
 
     /// Of the types that netCDF numbers, those of `Type`.
     static bool stores(int type);
@@ -68,11 +63,11 @@ private:
     template <class Call> std::string name_by(Call call) const;
     template <class Call> int number_by(std::string_view action, Call call) const;
     std::vector<std::string> strings(int variable, std::string const& name, std::size_t count) const;
-    bool has_attribute(int variable, std::string const& name, int& type, std::size_t& length) const;
 
     std::string path_;
     int id_;
     Kind kind_;
+    std::vector<std::byte> bytes_ = {};  // of a file in memory that is read
 };
 
 }  // namespace slideway

@@ -76,4 +76,29 @@ std::string creation_time() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
 }
 
+std::vector<DataFile::Attribute> attributes_of(Provenance const& provenance) {
+    BuildInfo const& build = build_info();
+    std::vector<DataFile::Attribute> attributes{{"Conventions", "CF-1.8"},
+                                                {"title", provenance.title},
+                                                {"source", "slideway " + build.version},
+                                                {"version", build.version},
+                                                {"commit", build.commit},
+                                                {"compiler", build.compiler},
+                                                {"flags", provenance.maker.flags},
+                                                {"backend", provenance.maker.backend},
+                                                {"isa", provenance.maker.isa},
+                                                {"machine", machine_name()},
+                                                {"threads", provenance.maker.threads},
+                                                {"seed", fmt::format("{}", provenance.seed)},  // CF-1.8 has no 64-bit integers
+                                                {"created", creation_time()},
+                                                {"scene", provenance.scene}};
+    if (!provenance.modules.empty()) attributes.push_back({"modules", provenance.modules});
+    // For readers that know no mechanism or law by its name.
+    attributes.push_back({"mechanism_meaning", provenance.mechanism});
+    if (provenance.law.empty()) return attributes;
+    attributes.push_back({"contact_law_meaning", provenance.law});
+    attributes.push_back({"contact_law_switches", provenance.law_switches ? 1 : 0});
+    return attributes;
+}
+
 }  // namespace slideway

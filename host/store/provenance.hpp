@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
+
+#include "host/store/data_file.hpp"
 
 namespace slideway {
 
@@ -39,6 +42,9 @@ struct Provenance {
     std::uint64_t seed = 0;
     Maker maker;
 };
+
+/// As a result file says it.
+std::vector<DataFile::Attribute> attributes_of(Provenance const& provenance);
 
 std::string cpu_name();      // "AMD EPYC, family 26 model 2", as the kernel names it; "unknown" for what it does not
 std::string machine_name();  // that and its threads

@@ -1,9 +1,10 @@
-// Which variables a result file has, in which order.
+// Which columns a result file has, in which order.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,45 +12,15 @@
 
 #include "host/config/descriptors.hpp"
 #include "host/config/outputs.hpp"
-#include "host/run/member_set.hpp"
 #include "host/sampling/design.hpp"
+#include "host/store/column.hpp"
 #include "host/store/provenance.hpp"
-#include "kernels/block.hpp"
 
 namespace slideway {
 
-// What a study concludes of its members.
-
-/// A dimension of its own with the values along it.
-struct StudyAxis {
-    std::string name;
-    std::string unit;
-    std::string long_name;
-    std::vector<double> values;
-};
-
-/// One value, or a row of values along axes, per member.
-struct StudyColumn {
-    std::string name;
-    std::string unit;
-    std::string long_name;
-    std::vector<std::string> axes;  // names of StudyAxis, slowest first
-};
-
-struct StudyTable {
-    std::vector<StudyAxis> axes;
-    std::vector<StudyColumn> columns;
-
-    /// Values of a column per member.
-    std::size_t width(StudyColumn const& column) const;
-};
-
-/// Values of a table's columns for the members of one block: [column][members × width].
-using StudyValues = std::vector<std::vector<double>>;
-
 /// What a member's run cost, as numbers of a result.
 struct WorkCounter {
-    char const* name;  // of the member variable
+    char const* name;  // of the column
     char const* meaning;
     std::uint64_t MemberRecord::*of;
 };
@@ -74,46 +45,49 @@ struct QuantityColumn {
     std::string name() const { return label.empty() ? quantity : quantity + "[" + label + "]"; }
 };
 
-/// Adds one for each number of a quantity.
-void add_columns(std::vector<QuantityColumn>& columns, OutputQuantity const& quantity);
+/// Adds one for each number of a quantity.  @param first without its label and index
+void add_columns(std::vector<QuantityColumn>& columns, QuantityColumn first);
 /// A column for each number of the quantities, in the order of the mechanism's outputs.
 std::vector<QuantityColumn> columns_of(Mechanism mechanism, Selection quantities);
 /// The one that a limit is of; nullptr without it.
 QuantityColumn const* column_of(std::vector<QuantityColumn> const& columns, Limit const& limit);
 
-/// A varied input: its dotted key with underscores for dots.
-struct ParameterColumn {
-    std::string name;
-    std::string unit;
-    std::string long_name;
-    double Inputs::*member;
-};
-
 /// A dotted key as the name of a variable: underscores for dots.
 std::string variable_name(std::string_view key);
+/// The column of a varied input.
+ResultColumn parameter_column(std::string_view key, std::string_view unit, std::string_view meaning, double Inputs::*input);
 
 struct ResultLayout {
     MemberSet members;
-    Mechanism mechanism{};  // whose states are stored
-    std::vector<double> sample_times;               // empty: no time series
+    Mechanism mechanism{};             // whose states are stored
+    std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
-    std::vector<ParameterColumn> parameters;
+    std::vector<ResultColumn> parameters;  // what varies
     std::size_t sections = 0;        // of a member, at most; 0: none are stored
     std::uint64_t section_rows = 0;  // of all members
     bool crossings = false;          // of a surface, not of a crank angle
     std::string sweep;               // name of the parameter column that a sweep goes by; "": no sweep
-    StudyTable study;                // what the study concludes of each member
-    std::shared_ptr<MemberTable const> labelled;  // the table whose columns of text name the members; none: nothing does
-
-    /// Bytes of the longest label; 0 without labels.
-    std::size_t label_width() const { return labelled == nullptr ? 0 : labelled->label_width; }
-    std::size_t states() const { return static_cast<std::size_t>(info(mechanism).states); }
+    /// What the study concludes of each member; a column with values along a dimension of its own name is an axis of others.
+    std::vector<ResultColumn> study;
+    std::function<std::vector<double>(BlockResult const& block, std::size_t place)> study_row;  // the numbers that these take theirs from
+    std::shared_ptr<MemberTable const> labelled;                                                // whose columns of text name the members
 };
+
+/// Also names, for readers that do not know the mechanism, the quantities (`quantities`).
+ResultColumns result_columns(ResultLayout const& layout);
+
+/// The attribute `quantities`; none without any.
+std::vector<DataFile::Attribute> quantity_names(Mechanism mechanism, Selection quantities);
+/// One that holds statuses, with `flag_values` and `flag_meanings`.
+ResultColumn status_column(std::string name, std::string meaning, std::string dimension);
 
 /// Bytes of data in the file.
 std::uint64_t payload_bytes(ResultLayout const& layout);
 /// Bytes beside the data, at most: descriptions of the variables, and the scene as text.  A shard has them too.
 std::uint64_t header_bytes(ResultLayout const& layout, Provenance const& provenance);
+
+/// The sections that a member of a block reached: [sections][section_columns].
+std::span<double const> sections_of(BlockResult const& block, std::size_t place);
 
 }  // namespace slideway

@@ -1,9 +1,9 @@
 #include "host/store/result_merge.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
-#include <optional>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -11,23 +11,14 @@
 #include "host/base/file_lock.hpp"
 #include "host/base/numbers.hpp"
 #include "host/store/result_seal.hpp"
-#include "host/store/result_definition.hpp"
 
 namespace slideway {
 namespace {
-
-using Variables = std::map<std::string, DataFile::Variable>;
 
 /// Rows [row, row + count) of a shard belong at `place` and after it.
 struct Run {
     std::size_t row, count, place;
 };
-
-Variables variables_of(DataFile const& file) {
-    Variables variables;
-    for (DataFile::Variable& variable : file.variables()) variables.emplace(variable.name, std::move(variable));
-    return variables;
-}
 
 /// Where the members of a shard belong among those of the run.
 std::vector<Run> member_runs(MemberSet const& shard, MemberSet const& all) {
@@ -43,77 +34,52 @@ std::vector<Run> member_runs(MemberSet const& shard, MemberSet const& all) {
 }
 
 /// Where the section rows of each member begin, by place; one more entry is the end.
-class SectionPlaces {
-public:
-    SectionPlaces(std::vector<MergedShard> const& shards, MemberSet const& all) : begin_(static_cast<std::size_t>(all.count()) + 1, 0) {
-        for (MergedShard const& shard : shards) {
-            shard.open([&](DataFile const& file) {
-                std::vector<int> const counts = file.read<int>(variables_of(file).at("section_count"));
-                for (Run const& run : member_runs(shard.members, all)) {
-                    for (std::size_t i = 0; i < run.count; ++i) begin_[run.place + i + 1] = static_cast<std::uint64_t>(counts[run.row + i]);
-                }
-            });
-        }
-        for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    }
-    std::uint64_t rows() const { return begin_.back(); }
-    /// The rows of a run of members.
-    std::size_t begin(Run const& run) const { return static_cast<std::size_t>(begin_[run.place]); }
-    std::size_t count(Run const& run) const { return static_cast<std::size_t>(begin_[run.place + run.count] - begin_[run.place]); }
-
-private:
-    std::vector<std::uint64_t> begin_;
-};
-
-/// Copies the rows of one shard into the file of all.
-class ShardCopy {
-public:
-    ShardCopy(DataFile& to, Variables const& variables) : to_(to), variables_(variables) {}
-
-    void copy(DataFile const& from, std::vector<Run> const& members, SectionPlaces const* sections) {
-        std::vector<Run> rows;
-        std::size_t row = 0;
-        for (Run const& run : members) {
-            if (sections == nullptr) break;
-            rows.push_back({row, sections->count(run), sections->begin(run)});
-            row += rows.back().count;
-        }
-        for (DataFile::Variable const& variable : from.variables()) {
-            std::string const dimension = from.first_dimension(variable);
-            if (dimension == "member") copy_rows(from, variable, members);
-            if (dimension == "section") copy_rows(from, variable, rows);
+std::vector<std::size_t> section_places(std::vector<MergedShard> const& shards, MemberSet const& all) {
+    std::vector<std::size_t> begin(static_cast<std::size_t>(all.count()) + 1, 0);
+    for (MergedShard const& shard : shards) {
+        auto const file = shard.open();
+        auto const variables = file->variables();
+        std::vector<int> const counts = file->read<int>(*std::ranges::find(variables, "section_count", &DataFile::Variable::name));
+        for (Run const& run : member_runs(shard.members, all)) {
+            for (std::size_t i = 0; i < run.count; ++i) begin[run.place + i + 1] = static_cast<std::size_t>(counts[run.row + i]);
         }
     }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    return begin;
+}
 
-private:
-    void copy_rows(DataFile const& from, DataFile::Variable const& variable, std::vector<Run> const& runs) {
-        DataFile::Variable const& target = variables_.at(variable.name);
-        if (variable.size() == 0) return;
-        std::size_t const row_bytes = variable.size() / variable.shape[0] * DataFile::size_of(variable.type);
-        buffer_.resize(variable.shape[0] * row_bytes);
-        from.read(variable.id, buffer_.data());
-        std::vector<std::size_t> start(variable.shape.size(), 0), count = variable.shape;
-        for (Run const& run : runs) {
-            if (run.count == 0) continue;
-            start[0] = run.place;
-            count[0] = run.count;
-            to_.write(target.id, start, count, buffer_.data() + run.row * row_bytes);
-        }
+/// The rows of the sections of members.
+std::vector<Run> section_runs(std::vector<Run> const& members, std::vector<std::size_t> const& begin) {
+    std::vector<Run> rows;
+    std::size_t row = 0;
+    for (Run const& run : members) {
+        rows.push_back({row, begin[run.place + run.count] - begin[run.place], begin[run.place]});
+        row += rows.back().count;
     }
+    return rows;
+}
 
-    DataFile& to_;
-    Variables const& variables_;
-    std::vector<std::byte> buffer_;
-};
+void copy_rows(DataFile const& from, DataFile::Variable const& variable, std::vector<Run> const& runs, DataFile& to, int target) {
+    if (variable.size() == 0) return;
+    std::size_t const row_bytes = variable.size() / variable.shape[0] * DataFile::size_of(variable.type);
+    std::vector<std::byte> rows(variable.shape[0] * row_bytes);
+    from.read(variable, rows.data());
+    std::vector<std::size_t> start(variable.shape.size(), 0), count = variable.shape;
+    for (Run const& run : runs) {
+        if (run.count == 0) continue;
+        start[0] = run.place;
+        count[0] = run.count;
+        to.write(target, start, count, rows.data() + run.row * row_bytes);
+    }
+}
 
 /// The first value makes HDF5 allocate a variable's storage and fill it with NaN: a full disk so shows before the shards are read.
-void reserve_space(DataFile& file) {
-    for (DataFile::Variable const& variable : file.variables()) {
-        if (variable.type != DataFile::Type::float64 || variable.size() == 0) continue;
-        std::string const dimension = file.first_dimension(variable);
-        if (dimension != "member" && dimension != "section") continue;
-        std::size_t const rank = variable.shape.size();
-        file.write(variable.id, std::vector<std::size_t>(rank, 0), std::vector<std::size_t>(rank, 1), &nan);
+void reserve_space(DataFile& file, ResultColumns const& list, std::vector<int> const& variables) {
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+        ResultColumn const& column = list.columns[i];
+        if (!column.source || column.type != DataFile::Type::float64 || list.size(column) == 0) continue;
+        std::size_t const rank = column.dimensions.size();
+        file.write(variables[i], std::vector<std::size_t>(rank, 0), std::vector<std::size_t>(rank, 1), &nan);
     }
 }
 
@@ -130,8 +96,7 @@ FileLock lock_on(std::string const& path) {
     return {lock_file_of(path), FileLock::Kind::alone, FileLock::Wait::no, {path}};
 }
 
-void write_part(std::string const& part, std::string const& completeness,
-                std::function<void(NetcdfFile& file)> const& write) {
+void write_part(std::string const& part, std::string const& completeness, std::function<void(NetcdfFile& file)> const& write) {
     try {
         NetcdfFile file = NetcdfFile::create(part);
         write(file);
@@ -149,20 +114,28 @@ void write_part(std::string const& part, std::string const& completeness,
 }  // namespace
 
 void write_merged(DataFile& file, std::vector<MergedShard> const& shards, ResultMerge& merge) {
-    std::optional<SectionPlaces> sections;
+    MemberSet const& all = merge.layout.members;
+    std::vector<std::size_t> sections;
     if (merge.layout.sections > 0) {
-        sections.emplace(shards, merge.layout.members);
-        merge.layout.section_rows = sections->rows();
+        sections = section_places(shards, all);
+        merge.layout.section_rows = sections.back();
     }
-    define_result(file, merge.layout, merge.provenance);
-    reserve_space(file);
-    Variables const variables = variables_of(file);
-    ShardCopy shard_copy(file, variables);
+    put_attributes(file, DataFile::global, attributes_of(merge.provenance));
+    ResultColumns const list = result_columns(merge.layout);
+    std::vector<int> const variables = define(file, list, all);
+    reserve_space(file, list, variables);
     for (MergedShard const& shard : shards) {
         merge.may_pause();
-        shard.open([&](DataFile const& contents) {
-            shard_copy.copy(contents, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
-        });
+        auto const from = shard.open();
+        std::vector<Run> const members = member_runs(shard.members, all);
+        std::vector<Run> const rows = sections.empty() ? std::vector<Run>() : section_runs(members, sections);
+        for (DataFile::Variable const& variable : from->variables()) {
+            auto const column = std::ranges::find(list.columns, variable.name, &ResultColumn::name);
+            if (column == list.columns.end()) throw FileError(fmt::format("{}: has a {} that no result of its scene has", from->path(), variable.name));
+            if (!column->source) continue;
+            int const target = variables[static_cast<std::size_t>(column - list.columns.begin())];
+            copy_rows(*from, variable, variable.dimensions.front() == "member" ? members : rows, file, target);
+        }
     }
     merge.may_pause();
     if (merge.conclude) merge.conclude(file);
@@ -182,8 +155,7 @@ void require_room_beside(std::string const& path) {
     if (is_there(part) && !(left && std::filesystem::is_regular_file(part, ignored))) throw is_in_the_way(part);
 }
 
-void write_result(std::string const& path, std::string const& completeness,
-                  std::function<void(NetcdfFile& file)> const& write, Existing existing) {
+void write_result(std::string const& path, std::string const& completeness, std::function<void(NetcdfFile& file)> const& write, Existing existing) {
     std::string const part = path + ".part", lock_file = lock_file_of(path);
     require_room_beside(path);
     FileLock lock = lock_on(path);
@@ -210,15 +182,12 @@ void merge_shards(std::vector<MergedShard> const& shards, ResultMerge merge, std
     write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, shards, merge); }, merge.existing);
 }
 
-void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
-                  std::string const& path) {
+void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge, std::string const& path) {
     std::vector<MergedShard> merged;
     merged.reserve(shards.size());
     for (Shard const& shard : shards) {
-        merged.push_back({shard.members, [&folder, &shard](MergedShard::Use const& use) {
-                              std::vector<std::byte> const bytes = folder.read(shard);
-                              use(NetcdfFile::open_in_memory(shard.name, bytes));
-                          }});
+        auto const open = [&folder, &shard] { return std::make_unique<NetcdfFile>(NetcdfFile::open_in_memory(shard.name, folder.read(shard))); };
+        merged.push_back({shard.members, open});
     }
     merge_shards(merged, std::move(merge), path);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,10 @@ struct ResultMerge {
     }
 };
 
-/// A shard as a merge reads it: its members, and what hands its contents to `use`.
+/// A shard as a merge reads it.
 struct MergedShard {
-    using Use = std::function<void(DataFile const& contents)>;
     MemberSet members;
-    std::function<void(Use const& use)> open;
+    std::function<std::unique_ptr<DataFile>()> open;
 };
 
 /// The members of the shards, in order, into an empty file.
@@ -46,15 +46,14 @@ void write_merged(DataFile& file, std::vector<MergedShard> const& shards, Result
 void merge_shards(std::vector<MergedShard> const& shards, ResultMerge merge, std::string const& path);
 
 /// The same of shards in a folder, of which one at a time is in memory.
-void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
-                  std::string const& path);
+void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge, std::string const& path);
 
 /// @throws FileError where files that no merge left have the names that a result has while it is written: `.part`, `.part.lock`
 void require_room_beside(std::string const& path);
 
 /// The same for what `write` puts into the file: adds completeness and seals it.
-void write_result(std::string const& path, std::string const& completeness,
-                  std::function<void(NetcdfFile& file)> const& write, Existing existing = Existing::replaced);
+void write_result(std::string const& path, std::string const& completeness, std::function<void(NetcdfFile& file)> const& write,
+                  Existing existing = Existing::replaced);
 
 /// Removes the lock of a process that was killed when its file was whole.  @throws FileError, also if another writes it
 void remove_merge_lock(std::string const& path);

@@ -89,7 +89,7 @@ void add_metadata(Fnv1a& hash, NetcdfFile const& group) {
     for (DataFile::Variable const& variable : by_name(group.variables())) {
         add_name(hash, variable.name);
         hash.add(static_cast<std::uint64_t>(variable.type));
-        for (std::string const& name : group.dimension_names(variable)) add_name(hash, name);
+        for (std::string const& name : variable.dimensions) add_name(hash, name);
         add_attributes(hash, group, variable.id);
     }
     std::vector<std::string> groups = group.groups();
@@ -125,8 +125,7 @@ void seal(NetcdfFile& file) {
 }
 
 int format_of(DataFile const& file) {
-    double version = 1;
-    file.number(DataFile::global, version_name, version);
+    double const version = file.number(DataFile::global, version_name).value_or(1);
     if (version > format_version) {
         throw FileError(fmt::format("{}: is of format {}, and slideway {} reads formats 1 to {}; read it with a newer version", file.path(),
                                     version, build_info().version, format_version));

@@ -30,8 +30,7 @@ template <class T> std::vector<double> read_as(DataFile const& file, DataFile::V
 
 /// As text, also a number.
 std::string attribute_text(DataFile const& file, std::string const& attribute) {
-    double number = 0;
-    if (file.number(DataFile::global, attribute, number)) return fmt::format("{}", number);
+    if (auto const number = file.number(DataFile::global, attribute)) return fmt::format("{}", *number);
     return file.text(DataFile::global, attribute);
 }
 

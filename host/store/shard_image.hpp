@@ -21,22 +21,14 @@ struct ShardImage {
     std::vector<std::byte> bytes;  // empty if none have ended
 };
 
-/// @param layout of the run; its members do not count.  @param study the study's columns of the block's members.
-/// @param name of the file, for messages.  @throws FileError
-ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
-                       BlockResult const& block, StudyValues const& study);
+/// @param layout of the run; its members do not count.  @param name of the file, for messages.  @throws FileError
+ShardImage shard_image(std::string const& name, ResultLayout const& layout, Provenance const& provenance, BlockResult const& block);
 /// The same in memory, without provenance.
-MergedShard memory_shard(std::string const& name, ResultLayout layout, BlockResult const& block, StudyValues const& study);
+MergedShard memory_shard(std::string const& name, ResultLayout const& layout, BlockResult const& block);
 
-/// Statistics and who made them.
-struct StatisticsShard {
-    Maker maker;
-    BlockStatistics statistics;
-};
-
-std::vector<std::byte> to_bytes(StatisticsShard const& shard);
-/// @param name of what the bytes are from, for messages.  @throws FileError
-StatisticsShard parse_statistics(std::span<std::byte const> bytes, std::string const& name);
+/// Statistics and who made them, and back.  @param name of what the bytes are from, for messages.  @throws FileError
+std::vector<std::byte> statistics_shard(Maker const& maker, BlockStatistics const& statistics);
+BlockStatistics parse_statistics(std::span<std::byte const> bytes, std::string const& name, Maker* maker = nullptr);
 
 /// The statistics of those members of a block that have ended.
 ShardImage statistics_image(StatisticsPlan const& plan, Maker const& maker, BlockResult const& block);

@@ -1,71 +1,66 @@
 #include "host/store/statistics_merge.hpp"
 
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/store/group_writer.hpp"
-#include "host/store/result_definition.hpp"
-
 namespace slideway {
 namespace {
 
-void write_statuses(DataFile& file, BlockStatistics const& statistics, std::uint64_t left) {
-    std::vector<signed char> values;
-    std::vector<double> counts;
+/// How members ended, with `not_run` last.
+void add_statuses(ResultColumns& list, BlockStatistics const& statistics, std::uint64_t left) {
+    ResultColumn values = status_column("status_value", "how a member ended", "status"), counts{"status_count", "1", "members that ended so", {"status"}};
     for (int status = 0; status < status_count; ++status) {
-        values.push_back(static_cast<signed char>(status));
-        counts.push_back(static_cast<double>(statistics.ended(static_cast<Status>(status))));
+        values.values.push_back(status);
+        counts.values.push_back(static_cast<double>(statistics.ended(static_cast<Status>(status))));
     }
-    values.push_back(static_cast<signed char>(Status::not_run));
-    counts.push_back(static_cast<double>(left));
-    GroupWriter out(file);
-    out.dimension("status", values.size());
-    put_status_flags(file, out.put({"status_value", "", "how a member ended", {"status"}}, values));
-    out.put({"status_count", "1", "members that ended so", {"status"}}, counts);
+    values.values.push_back(static_cast<double>(Status::not_run));
+    counts.values.push_back(static_cast<double>(left));
+    list.dimensions.push_back({"status", counts.values.size()});
+    list.columns.insert(list.columns.end(), {std::move(values), std::move(counts)});
 }
 
-void write_failed(DataFile& file, BlockStatistics const& statistics) {
+void add_failed(ResultColumns& list, BlockStatistics const& statistics) {
     if (statistics.failed().empty()) return;
-    std::vector<int> members;
-    std::vector<signed char> statuses;
-    std::vector<double> times;
+    ResultColumn members{"failed_member", "1", "number of one of the first members that failed", {"failed"}, "", {}, DataFile::Type::int32};
+    ResultColumn statuses = status_column("failed_status", "how it ended", "failed"), times{"failed_time", "s", "time at which it ended", {"failed"}};
     for (FailedMember const& failed : statistics.failed()) {
-        members.push_back(static_cast<int>(failed.member));
-        statuses.push_back(static_cast<signed char>(failed.status));
-        times.push_back(failed.time);
+        members.values.push_back(static_cast<double>(failed.member));
+        statuses.values.push_back(static_cast<double>(failed.status));
+        times.values.push_back(failed.time);
     }
-    GroupWriter out(file);
-    out.dimension("failed", members.size());
-    out.put({"failed_member", "1", "number of one of the first members that failed", {"failed"}}, members);
-    put_status_flags(file, out.put({"failed_status", "", "how it ended", {"failed"}}, statuses));
-    out.put({"failed_time", "s", "time at which it ended", {"failed"}}, times);
+    list.dimensions.push_back({"failed", statistics.failed().size()});
+    list.columns.insert(list.columns.end(), {std::move(members), std::move(statuses), std::move(times)});
+}
+
+ResultColumns statistics_columns(BlockStatistics const& statistics, ResultLayout const& layout) {
+    ResultColumns list;
+    std::vector<char const*> units;
+    for (OutputQuantity const& quantity : selected(outputs_of(layout.mechanism).quantities, layout.quantities)) {
+        units.push_back(quantity.unit);
+        if (quantity.dimension != nullptr) list.add_labels_of(quantity.dimension);
+    }
+    list.attributes = quantity_names(layout.mechanism, layout.quantities);
+    list.attributes.push_back({"store", "statistics"});
+    list.attributes.push_back({"members", layout.members.text()});
+    list.attributes.push_back({"quantity_units", fmt::format("{}", fmt::join(units, ", "))});
+    add_statuses(list, statistics, layout.members.without(statistics.members()).count());
+    add_failed(list, statistics);
+    for (std::size_t i = 0; i < work_table.size(); ++i)
+        list.columns.push_back({.name = work_table[i].name, .unit = "1", .meaning = fmt::format("{} of all members", work_table[i].meaning),
+                                .values = {static_cast<double>(statistics.work()[i])}});
+    return list;
 }
 
 }  // namespace
 
 void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge const& merge) {
-    MemberSet const& members = merge.layout.members;
-    put_provenance(file, merge.provenance);
-    file.put(DataFile::global, "store", "statistics");
-    file.put(DataFile::global, "members", members.text());
-    LabelAxes axes(file);
-    std::vector<char const*> units;
-    for (OutputQuantity const& quantity : selected(outputs_of(merge.layout.mechanism).quantities, merge.layout.quantities)) {
-        units.push_back(quantity.unit);
-        if (quantity.dimension != nullptr) axes.axis(quantity.dimension);
-    }
-    put_quantity_names(file, merge.layout);
-    file.put(DataFile::global, "quantity_units", fmt::format("{}", fmt::join(units, ", ")));
-    axes.write();
-    write_statuses(file, statistics, members.without(statistics.members()).count());
-    write_failed(file, statistics);
-    GroupWriter out(file);
-    for (std::size_t i = 0; i < statistics.work().size(); ++i)
-        out.put({work_table[i].name, "1", fmt::format("{} of all members", work_table[i].meaning)}, static_cast<double>(statistics.work()[i]));
+    put_attributes(file, DataFile::global, attributes_of(merge.provenance));
+    define(file, statistics_columns(statistics, merge.layout));
     std::vector<std::byte> const bytes = statistics.bytes();
-    out.dimension("byte", bytes.size());
-    out.put({"accumulators", "", "exact sums and quantile sketches from which the statistics follow, as bytes", {"byte"}}, bytes);
+    file.add_dimension("byte", bytes.size());
+    put(file, {"accumulators", "", "exact sums and quantile sketches from which the statistics follow, as bytes", {"byte"}}, bytes);
     if (merge.conclude) merge.conclude(file);
     merge.may_pause();
 }
@@ -76,7 +71,7 @@ void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shard
         BlockStatistics statistics(plan);
         for (Shard const& shard : shards) {
             merge.may_pause();
-            statistics.merge(parse_statistics(folder.read(shard), shard.name).statistics);
+            statistics.merge(parse_statistics(folder.read(shard), shard.name));
         }
         merge.may_pause();
         write_merged(file, statistics, merge);

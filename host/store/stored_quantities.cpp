@@ -34,15 +34,13 @@ std::vector<QuantityColumn> stored_columns(ResultView const& results) {
     std::vector<std::string> const names = stored_names(results), units = parts_of(results.attribute("quantity_units"), ", ");
     std::vector<QuantityColumn> columns;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        bool const is_variable = results.has(names[i]);
-        auto const* const known = std::ranges::find(quantity_table, std::string_view(names[i]), [](QuantityInfo const& one) { return std::string_view(one.name); });
-        bool const is_of_table = known != std::end(quantity_table);
-        std::string const unit = is_variable ? results.unit(names[i]) : i < units.size() ? units[i] : is_of_table ? known->unit : "1";
-        std::string const words = is_variable ? results.long_name(names[i]) : is_of_table ? known->long_name : names[i];
-        OutputQuantity quantity{is_of_table ? *known : QuantityInfo{names[i].c_str(), Statistic::at_end, Keeper::signals, "", 1, nullptr, ""}, 0};
-        quantity.unit = unit.c_str();
-        quantity.long_name = words.c_str();
-        add_columns(columns, quantity);
+        auto const* const known = std::ranges::find_if(quantity_table, [&](QuantityInfo const& one) { return names[i] == one.name; });
+        QuantityColumn column{names[i], "", "", 0, 0, "1", names[i]};
+        if (known != std::end(quantity_table))
+            column = {names[i], known->dimension != nullptr ? known->dimension : "", "", 0, 0, known->unit, known->long_name};
+        if (i < units.size()) column.unit = units[i];
+        if (results.has(names[i])) column.unit = results.unit(names[i]), column.long_name = results.long_name(names[i]);
+        add_columns(columns, std::move(column));
     }
     return columns;
 }

@@ -50,10 +50,7 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     layout.sample_times = scene.sample_times;
     layout.quantities = scene.quantities;
     layout.series = scene.series;
-    auto const add = [&layout](Key const& key) {
-        layout.parameters.push_back(
-            {variable_name(key.name), std::string(key.unit), std::string(key.meaning), key.member});
-    };
+    auto const add = [&layout](Key const& key) { layout.parameters.push_back(parameter_column(key.name, key.unit, key.meaning, key.member)); };
     if (scene.study == StudyKind::sweep) {
         add(*scene.chaos.parameter);
         layout.sweep = layout.parameters.front().name;
@@ -62,7 +59,9 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     OrbitSchedule const schedule = orbit_schedule(scene);
     layout.sections = schedule.section_rows();
     layout.crossings = schedule.crossings.room > 0;
-    layout.study = ExponentTable(scene).layout();
+    auto const exponents = std::make_shared<ExponentTable const>(scene);
+    layout.study = exponents->columns();
+    layout.study_row = [exponents](BlockResult const& block, std::size_t place) { return exponents->row(block, place); };
     if (scene.design.table != nullptr && !scene.design.table->labels.empty()) layout.labelled = scene.design.table;
     return layout;
 }

@@ -26,64 +26,75 @@ ExponentTable::ExponentTable(Scene const& scene)
       exponents_(static_cast<std::size_t>(shadow_plan(scene).count)),
       d0_(scene.chaos.d0) {
     if (exponents_ == 0) return;
-    StudyAxis exponent{"exponent", "1", "number of the exponent, the largest first", {}};
+    ResultColumn exponent{"exponent", "1", "number of the exponent, the largest first", {"exponent"}};
     for (std::size_t j = 1; j <= exponents_; ++j) exponent.values.push_back(static_cast<double>(j));
-    layout_.axes.push_back(exponent);
+    columns_.push_back(std::move(exponent));
     add_exponents();
     add_health();
     add_history(scene.chaos.history);
 }
 
-void ExponentTable::add(StudyColumn column, Row row) {
-    layout_.columns.push_back(std::move(column));
+void ExponentTable::add(std::string name, std::string unit, std::string meaning, std::vector<std::string> const& along, Row row) {
+    std::size_t width = 1;
+    std::vector<std::string> dimensions{"member"};
+    for (std::string const& axis : along) {
+        dimensions.push_back(axis);
+        width *= std::ranges::find(columns_, axis, &ResultColumn::name)->values.size();
+    }
+    auto const source = [from = width_, width](EndedMember const& of_member, ResultColumn::Numbers& out) {
+        auto const numbers = of_member.study.subspan(from, width);
+        out.insert(out.end(), numbers.begin(), numbers.end());
+    };
+    columns_.push_back({std::move(name), std::move(unit), std::move(meaning), std::move(dimensions), "", source});
+    width_ += width;
     rows_.push_back(std::move(row));
 }
 
 void ExponentTable::add_exponents() {
-    std::vector<std::string> const along(1, layout_.axes.front().name);
+    std::vector<std::string> const along{"exponent"};
     using Numbers = std::vector<double>;
-    add({"lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along}, [](Member const& m) { return m.exponents.value; });
-    add({"lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along},
+    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along, [](Member const& m) { return m.exponents.value; });
+    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along,
         [](Member const& m) { return m.exponents.standard_error; });
-    add({"lyapunov_exponent_half_width", "s-1",
-         "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included", along},
+    add("lyapunov_exponent_half_width", "s-1",
+         "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included", along,
         [](Member const& m) {
             Numbers widths = m.exponents.half_width;
             for (double& width : widths) width += m.resolution;
             return widths;
         });
-    add({"lyapunov_exponent_late", "s-1", "exponent of the second half of the record alone", along}, [](Member const& m) { return m.exponents.late; });
-    add({"lyapunov_time", "s", "time over which the exponents are taken, after the transient", {}},
+    add("lyapunov_exponent_late", "s-1", "exponent of the second half of the record alone", along, [](Member const& m) { return m.exponents.late; });
+    add("lyapunov_time", "s", "time over which the exponents are taken, after the transient", {},
         [](Member const& m) { return Numbers{m.log.length * static_cast<double>(m.log.intervals())}; });
     if (exponents_ < 2) return;
-    add({"kaplan_yorke_dimension", "1",
-         "Kaplan-Yorke dimension of the map over a period of the drive, one less than the flow's; a lower bound where it is the number of exponents", {}},
+    add("kaplan_yorke_dimension", "1",
+         "Kaplan-Yorke dimension of the map over a period of the drive, one less than the flow's; a lower bound where it is the number of exponents", {},
         [](Member const& m) { return Numbers{dimension(m.exponents.value, m.resolution)}; });
 }
 
 void ExponentTable::add_health() {
     using Numbers = std::vector<double>;
-    add({"lyapunov_resolution", "s-1", "least exponent that is more than the rounding of resting offsets", {}},
+    add("lyapunov_resolution", "s-1", "least exponent that is more than the rounding of resting offsets", {},
         [](Member const& m) { return Numbers{m.resolution}; });
-    add({"rescalings", "1", "times that offsets were rescaled while the exponents were taken", {}},
+    add("rescalings", "1", "times that offsets were rescaled while the exponents were taken", {},
         [every = static_cast<double>(schedule_.stops.growth_every)](Member const& m) { return Numbers{every * static_cast<double>(m.log.intervals())}; });
-    add({"lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {}},
+    add("lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {},
         [](Member const& m) { return Numbers{static_cast<double>(m.record.lost_offsets)}; });
-    add({"grown_offsets", "1", "times that an offset had grown to the size of the joint: then exponents are too small", {}},
+    add("grown_offsets", "1", "times that an offset had grown to the size of the joint: then exponents are too small", {},
         [](Member const& m) { return Numbers{static_cast<double>(m.record.grown_offsets)}; });
 }
 
 void ExponentTable::add_history(std::size_t points) {
     std::size_t const records = schedule_.stops.growths(), count = std::min(records, points);
     if (count == 0) return;
-    StudyAxis history{"history", "1", "rescalings after the transient", {}};
+    ResultColumn history{"history", "1", "rescalings after the transient", {"history"}};
     std::vector<std::size_t> after;
     for (std::size_t i = 1; i <= count; ++i) {
         after.push_back(i * records / count);
         history.values.push_back(static_cast<double>(after.back() * schedule_.stops.growth_every));
     }
-    layout_.axes.push_back(history);
-    add({"lyapunov_history", "s-1", "running exponents after so many rescalings", {history.name, layout_.axes.front().name}}, [after](Member const& m) {
+    columns_.push_back(std::move(history));
+    add("lyapunov_history", "s-1", "running exponents after so many rescalings", {"history", "exponent"}, [after](Member const& m) {
         std::vector<double> row(after.size() * m.log.count);
         for (std::size_t j = 0; j < m.log.count; ++j) {
             auto const of_offset = running_exponents(m.log, j, after);
@@ -106,16 +117,15 @@ ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_
     return {log, exponents_of(log), least_distance / (d0_ * spacing), block.records[i]};
 }
 
-StudyValues ExponentTable::values(BlockResult const& block) const {
-    StudyValues columns(rows_.size());
-    for (std::size_t i = 0; i < block.records.size() && exponents_ > 0; ++i) {
-        Member const of_member = member(block, i);
-        for (std::size_t column = 0; column < rows_.size(); ++column) {
-            std::vector<double> const row = rows_[column](of_member);
-            columns[column].insert(columns[column].end(), row.begin(), row.end());
-        }
+std::vector<double> ExponentTable::row(BlockResult const& block, std::size_t place) const {
+    std::vector<double> numbers;
+    if (exponents_ == 0) return numbers;
+    Member const of_member = member(block, place);
+    for (Row const& row : rows_) {
+        std::vector<double> const some = row(of_member);
+        numbers.insert(numbers.end(), some.begin(), some.end());
     }
-    return columns;
+    return numbers;
 }
 
 }  // namespace slideway

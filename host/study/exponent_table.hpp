@@ -20,8 +20,10 @@ class ExponentTable {
 public:
     explicit ExponentTable(Scene const& scene);
 
-    StudyTable const& layout() const { return layout_; }
-    StudyValues values(BlockResult const& block) const;
+    /// Axes and columns, whose source is the row of a member.
+    std::vector<ResultColumn> const& columns() const { return columns_; }
+    /// All numbers of a member of a block: exponents first, then their errors and the others, in the order of the columns.
+    std::vector<double> row(BlockResult const& block, std::size_t place) const;
 
 private:
     struct Member {
@@ -33,7 +35,7 @@ private:
     /// A member's row of a column.
     using Row = std::function<std::vector<double>(Member const& member)>;
 
-    void add(StudyColumn column, Row row);
+    void add(std::string name, std::string unit, std::string meaning, std::vector<std::string> const& along, Row row);
     void add_exponents();
     void add_health();
     void add_history(std::size_t points);
@@ -43,8 +45,9 @@ private:
     OrbitSchedule const schedule_;
     std::size_t const exponents_;
     double const d0_;
-    StudyTable layout_;
-    std::vector<Row> rows_;  // of the layout's columns
+    std::vector<ResultColumn> columns_;
+    std::size_t width_ = 0;  // of a row
+    std::vector<Row> rows_;  // of the columns but for the axes
 };
 
 }  // namespace slideway

@@ -153,7 +153,6 @@ public:
     void take(BlockResult const& block) {
         std::vector<double> times;
         for (MemberRecord const& record : block.records) times.push_back(record.time);
-        StudyValues const of_exponents = exponents_.values(block);
         auto const offsets = static_cast<std::size_t>(shadow_plan(scene_).count);
         auto const contacts = end_contacts(scene_, {block.inputs.begin(), block.inputs.end()}, times, block.final_states);
         auto const residual = static_cast<std::size_t>(quantity_column(Quantity::energy_residual));
@@ -170,7 +169,8 @@ public:
             auto const put = [&](double value) { (next++)->values[place] = value; };
             for (std::size_t const q : quantities_) put(quantities[q]);
             for (std::size_t j = 0; j < limited_.size(); ++j) put(is_met(scene_.limits[j], quantities[limited_[j]]));
-            for (std::size_t j = 0; j < offsets; ++j) put(of_exponents[0][i * offsets + j]);
+            std::vector<double> const exponents = exponents_.row(block, i);
+            for (std::size_t j = 0; j < offsets; ++j) put(exponents[j]);
             for (double const count : contacts[i]) put(count);
         }
     }

@@ -7,7 +7,7 @@
 #include "host/store/shard_image.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
-#include "host/study/exponent_table.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/study_run.hpp"
 
 namespace slideway {
@@ -16,11 +16,11 @@ namespace {
 /// What takes the blocks of a run and makes a file of them.
 class MemoryStore {
 public:
-    explicit MemoryStore(Scene const& scene, ResultMerge merge) : scene_(scene), merge_(std::move(merge)), exponents_(scene) {}
+    MemoryStore(Scene const& scene, ResultMerge merge) : scene_(scene), merge_(std::move(merge)) {}
 
     void take(BlockResult const& block) {
         if (!scene_.stores_members()) return statistics_.add(block, plan_);
-        shards_.push_back(memory_shard(scene_.path, merge_.layout, block, exponents_.values(block)));
+        shards_.push_back(memory_shard(scene_.path, merge_.layout, block));
         if (shards_.back().members.empty()) shards_.pop_back();
     }
     MemoryFile file(std::uint64_t left) {
@@ -37,7 +37,6 @@ public:
 private:
     Scene const& scene_;
     ResultMerge merge_;
-    ExponentTable const exponents_;
     StatisticsPlan const plan_ = statistics_plan(scene_);
     BlockStatistics statistics_{plan_};
     std::vector<MergedShard> shards_;

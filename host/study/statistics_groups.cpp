@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "host/base/numbers.hpp"
-#include "host/store/group_writer.hpp"
+#include "host/store/column.hpp"
 
 namespace slideway {
 namespace {
@@ -44,7 +44,7 @@ std::vector<double> intervals_of(auto const& estimates) {
 /// Writes one value, or a row of values, of each column of a quantity.
 template <class Entry> class QuantityWriter {
 public:
-    QuantityWriter(GroupWriter& group, std::span<Entry const> entries) : group_(group), entries_(entries) {}
+    QuantityWriter(DataFile& group, std::span<Entry const> entries) : group_(group), entries_(entries) {}
 
     /// @param of what there is to write of an entry: a number, an interval or a row of numbers, as many as the dimensions say
     template <class Of>
@@ -68,24 +68,24 @@ private:
             coordinates.push_back(column.dimension + "_name");
         }
         if (std::ranges::count(dimensions, "input") > 0) coordinates.emplace_back("input_name");
-        group_.put({column.quantity + "_" + suffix, unit, what + ": " + column.long_name, std::move(dimensions),
+        slideway::put(group_, {column.quantity + "_" + suffix, unit, what + ": " + column.long_name, std::move(dimensions),
                     fmt::format("{}", fmt::join(coordinates, " "))},
                    values);
     }
 
-    GroupWriter& group_;
+    DataFile& group_;
     std::span<Entry const> entries_;
 };
 
-void describe_group(GroupWriter& group, ToleranceReport const& report) {
-    group.attribute("policy", report.policy);
-    group.attribute("intervals", report.intervals);
-    group.attribute("confidence_level", confidence_level);
-    group.attribute("design", std::string(name_of(report.design)));
-    group.labels("bound", "end of an interval", {"low", "high"});
+void describe_group(DataFile& group, ToleranceReport const& report) {
+    group.put(DataFile::global, "policy", report.policy);
+    group.put(DataFile::global, "intervals", report.intervals);
+    group.put(DataFile::global, "confidence_level", confidence_level);
+    group.put(DataFile::global, "design", std::string(name_of(report.design)));
+    put_labels(group, "bound", "end of an interval", {"low", "high"});
 }
 
-void write_statuses(GroupWriter& group, ToleranceReport const& report) {
+void write_statuses(DataFile& group, ToleranceReport const& report) {
     std::vector<std::string> labels;
     std::vector<int> members, draws;
     for (StatusCount const& status : report.statuses) {
@@ -97,20 +97,21 @@ void write_statuses(GroupWriter& group, ToleranceReport const& report) {
         }
     }
     if (labels.empty()) return;
-    group.labels("ending", "how a member ended", labels);
-    group.put({"members", "1", "members of the file that ended so", {"ending"}, "ending_name"}, members);
-    group.put({"draws", "1", "members that distributions and yields are of that ended so", {"ending"}, "ending_name"}, draws);
+    put_labels(group, "ending", "how a member ended", labels);
+    put(group, {"members", "1", "members of the file that ended so", {"ending"}, "ending_name"}, members);
+    put(group, {"draws", "1", "members that distributions and yields are of that ended so", {"ending"}, "ending_name"}, draws);
 }
 
 void write_distributions(DataFile& file, ToleranceReport const& report) {
-    GroupWriter group(file, "statistics");
+    auto const held = file.add_group("statistics");
+    DataFile& group = *held;
     describe_group(group, report);
-    if (!report.quantile_error.empty()) group.attribute("quantile_error", report.quantile_error);
+    if (!report.quantile_error.empty()) group.put(DataFile::global, "quantile_error", report.quantile_error);
     write_statuses(group, report);
-    group.dimension("probability", std::size(reported_quantiles));
-    group.put({"probability", "1", "probability of a quantile", {"probability"}}, reported_quantiles);
-    group.dimension("bin", most_bins);
-    group.dimension("edge", most_bins + 1);
+    group.add_dimension("probability", std::size(reported_quantiles));
+    put(group, {"probability", "1", "probability of a quantile", {"probability"}}, reported_quantiles);
+    group.add_dimension("bin", most_bins);
+    group.add_dimension("edge", most_bins + 1);
     for (auto const& entries : by_quantity(report.columns)) {
         using Entry = ColumnStatistics;
         QuantityWriter<Entry> writer(group, entries);
@@ -139,7 +140,8 @@ void write_distributions(DataFile& file, ToleranceReport const& report) {
 
 void write_yields(DataFile& file, ToleranceReport const& report) {
     if (!report.all_met) return;
-    GroupWriter group(file, "yield");
+    auto const held = file.add_group("yield");
+    DataFile& group = *held;
     describe_group(group, report);
     std::vector<std::string> names, units;
     std::vector<double> low, high, value, interval;
@@ -154,18 +156,18 @@ void write_yields(DataFile& file, ToleranceReport const& report) {
         append(interval, limit.met.interval);
     }
     std::string const unit_of("in the unit that unit_name gives");
-    group.labels("limit", "quantity that is limited", names);
-    group.texts("unit", "limit", "unit of the limited quantity", units);
-    group.put({"low", "", "least value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, low);
-    group.put({"high", "", "largest value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, high);
-    group.put({"met", "1", "members that meet the limit", {"limit"}, "limit_name"}, met);
-    group.put({"share", "1", "share of the members that meet the limit", {"limit"}, "limit_name"}, value);
-    group.put({"share_interval", "1", "confidence interval of the share", {"limit", "bound"}, "limit_name"}, interval);
+    put_labels(group, "limit", "quantity that is limited", names);
+    put_texts(group, "unit", "limit", "unit of the limited quantity", units);
+    put(group, {"low", "", "least value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, low);
+    put(group, {"high", "", "largest value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, high);
+    put(group, {"met", "1", "members that meet the limit", {"limit"}, "limit_name"}, met);
+    put(group, {"share", "1", "share of the members that meet the limit", {"limit"}, "limit_name"}, value);
+    put(group, {"share_interval", "1", "confidence interval of the share", {"limit", "bound"}, "limit_name"}, interval);
     Proportion const& all = *report.all_met;
-    group.put({"all_met", "1", "members that meet all limits"}, static_cast<int>(all.successes));
-    group.put({"trials", "1", "members that ran, failed ones included"}, static_cast<int>(all.trials));
-    group.put({"all_share", "1", "share of the members that meet all limits"}, all.value);
-    group.put({"all_share_interval", "1", "confidence interval of the share", {"bound"}}, std::array{all.interval.low, all.interval.high});
+    put(group, {"all_met", "1", "members that meet all limits"}, static_cast<int>(all.successes));
+    put(group, {"trials", "1", "members that ran, failed ones included"}, static_cast<int>(all.trials));
+    put(group, {"all_share", "1", "share of the members that meet all limits"}, all.value);
+    put(group, {"all_share_interval", "1", "confidence interval of the share", {"bound"}}, std::array{all.interval.low, all.interval.high});
 }
 
 /// Of each input its rank; 0 of all where the column has none.
@@ -176,10 +178,10 @@ std::vector<int> ranks_of(std::vector<std::size_t> const& ranking, std::string c
     return ranks;
 }
 
-void write_indices(GroupWriter& group, IndexReport const& report) {
-    group.put({"rows_used", "1", "rows of the design in the indices"}, static_cast<int>(report.used()));
-    group.put({"rows_failed", "1", "rows left out: a member failed"}, static_cast<int>(report.failed));
-    group.put({"rows_incomplete", "1", "rows left out: a member is missing"}, static_cast<int>(report.incomplete));
+void write_indices(DataFile& group, IndexReport const& report) {
+    put(group, {"rows_used", "1", "rows of the design in the indices"}, static_cast<int>(report.used()));
+    put(group, {"rows_failed", "1", "rows left out: a member failed"}, static_cast<int>(report.failed));
+    put(group, {"rows_incomplete", "1", "rows left out: a member is missing"}, static_cast<int>(report.incomplete));
     for (auto const& entries : by_quantity(report.columns)) {
         using Entry = ColumnIndices;
         QuantityWriter<Entry> writer(group, entries);
@@ -193,11 +195,12 @@ void write_indices(GroupWriter& group, IndexReport const& report) {
         writer.numbers("first_sum", "1", "sum of the first-order indices", {}, [](Entry const& e) { return e.indices.first_sum.value; });
         writer.numbers("first_sum_interval", "1", "confidence interval of the sum of the first-order indices", {"bound"},
                        [](Entry const& e) { return e.indices.first_sum.interval; });
-        writer.counts("rank", "rank of the input by its total index, 1 the largest; 0: it has none", {"input"}, [](Entry const& e) { return ranks_of(e.ranking, e.why_none); });
+        writer.counts("rank", "rank of the input by its total index, 1 the largest; 0: it has none", {"input"},
+                      [](Entry const& e) { return ranks_of(e.ranking, e.why_none); });
     }
 }
 
-void write_correlations(GroupWriter& group, std::vector<ColumnCorrelations> const& correlations) {
+void write_correlations(DataFile& group, std::vector<ColumnCorrelations> const& correlations) {
     for (auto const& entries : by_quantity(correlations)) {
         using Entry = ColumnCorrelations;
         QuantityWriter<Entry> writer(group, entries);
@@ -214,19 +217,20 @@ void write_correlations(GroupWriter& group, std::vector<ColumnCorrelations> cons
 }
 
 /// Columns without sensitivities and why, as an attribute; they are NaN.
-void write_reasons(GroupWriter& group, auto const& columns) {
+void write_reasons(DataFile& group, auto const& columns) {
     std::vector<std::string> reasons;
     for (auto const& entry : columns) {
         if (!entry.why_none.empty()) reasons.push_back(entry.column.name() + " " + entry.why_none);
     }
-    if (!reasons.empty()) group.attribute("without_index", fmt::format("{}", fmt::join(reasons, "; ")));
+    if (!reasons.empty()) group.put(DataFile::global, "without_index", fmt::format("{}", fmt::join(reasons, "; ")));
 }
 
 void write_sensitivity(DataFile& file, ToleranceReport const& report) {
     if (report.inputs.empty()) return;
-    GroupWriter group(file, "sensitivity");
+    auto const held = file.add_group("sensitivity");
+    DataFile& group = *held;
     describe_group(group, report);
-    group.labels("input", "key that varies", report.inputs);
+    put_labels(group, "input", "key that varies", report.inputs);
     if (report.indices) {
         write_reasons(group, report.indices->columns);
         write_indices(group, *report.indices);

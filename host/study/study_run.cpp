@@ -16,7 +16,6 @@
 #include "host/store/shard_image.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
-#include "host/study/exponent_table.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/verification.hpp"
 
@@ -65,9 +64,7 @@ OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
 /// As a result file says it.
 Maker stored_maker(DataFile const& file) {
     auto const text = [&](char const* name) { return file.text(DataFile::global, name); };
-    double threads = 1;
-    file.number(DataFile::global, "threads", threads);
-    return {text("backend"), text("isa"), text("flags"), static_cast<int>(threads)};
+    return {text("backend"), text("isa"), text("flags"), static_cast<int>(file.number(DataFile::global, "threads").value_or(1))};
 }
 
 /// What a merge needs beside the shards.  What it refers to must outlive it.  @param left members without one
@@ -215,8 +212,7 @@ void StudyRun::merge_all(StopRequest const& stop, std::optional<ToleranceReport>
         merge_study(scene_, folder, folder.listed(), origin, target_, report, settings, check);
         return;
     }
-    BlockResult const block = brief_.block->view();
-    merge_shards({memory_shard(options_.output, result_layout(scene_, members_), block, ExponentTable(scene_).values(block))},
+    merge_shards({memory_shard(options_.output, result_layout(scene_, members_), brief_.block->view())},
                  study_merge(scene_, members_, 0, origin, target_, report, settings, check), target_.path());
 }
 
@@ -253,8 +249,7 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
 
 std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
     if (shards.empty() || !scene.stores_members()) return {};
-    std::vector<std::byte> const bytes = folder.read(shards.front());
-    std::string const text = NetcdfFile::open_in_memory(shards.front().name, bytes).text(NetcdfFile::global, "scene");
+    std::string const text = NetcdfFile::open_in_memory(shards.front().name, folder.read(shards.front())).text(NetcdfFile::global, "scene");
     Node const document = read_document(text, shards.front().name, {});
     Node const* const verify = document.find_path("study.verify");
     if (verify == nullptr) return {};
@@ -263,10 +258,12 @@ std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<
 
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
     if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
-    std::vector<std::byte> const bytes = folder.read(shards.front());
+    std::vector<std::byte> bytes = folder.read(shards.front());
     Provenance origin = provenance_of(scene);
-    origin.maker = scene.stores_members() ? stored_maker(NetcdfFile::open_in_memory(shards.front().name, bytes))
-                                          : parse_statistics(bytes, shards.front().name).maker;
+    if (scene.stores_members())
+        origin.maker = stored_maker(NetcdfFile::open_in_memory(shards.front().name, std::move(bytes)));
+    else
+        parse_statistics(bytes, shards.front().name, &origin.maker);
     RunIdentity const& identity = folder.identity();
     // The copy of the table goes with the folder.
     origin.scene = identity.table.empty() ? identity.scene : with_table(identity.scene, identity.table);

@@ -7,7 +7,6 @@
 #include "host/store/shard_image.hpp"
 #include "host/store/shard_writer.hpp"
 #include "host/study/continued_sweep.hpp"
-#include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"
 
@@ -21,8 +20,7 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
     ShardFolder const folder(path);
     for (Shard const& shard : folder.listed()) {
         if (!shard.members.overlaps(wanted)) continue;
-        std::vector<std::byte> const bytes = folder.read(shard);
-        NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, bytes);
+        NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, folder.read(shard));
         std::vector<std::uint64_t> const members = shard.members.members(0, shard.members.count());
         ResultView const results(file);
         std::vector<double> const statuses = results.values("status", members.size());
@@ -50,9 +48,7 @@ std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, StudyOptions const
         auto form = [plan = statistics_plan(scene), maker = origin.maker](BlockResult const& block) { return statistics_image(plan, maker, block); };
         return std::make_unique<ShardWriter>(folder, std::move(form), joined_statistics);
     }
-    auto form = [folder, origin, layout = result_layout(scene, {}), exponents = ExponentTable(scene)](BlockResult const& block) {
-        return shard_image(folder, layout, origin, block, exponents.values(block));
-    };
+    auto form = [folder, origin, layout = result_layout(scene, {})](BlockResult const& block) { return shard_image(folder, layout, origin, block); };
     return std::make_unique<ShardWriter>(folder, std::move(form), ShardJoin(), brief);
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "host/base/numbers.hpp"
-#include "host/store/group_writer.hpp"
+#include "host/store/column.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/verification.hpp"
 
@@ -14,10 +14,10 @@ namespace {
 constexpr char const* sign_refuted = "refuted";
 
 /// Members that ran again: what they had come to, and what they came to then.
-void write_pairs(GroupWriter& group, Verification const& v) {
-    group.labels("check", "by which members ran again", v.methods);
-    group.labels("source", "by which a member ran", {"study", "check"});
-    group.dimension("pair", v.pairs.size());
+void write_pairs(DataFile& group, Verification const& v) {
+    put_labels(group, "check", "by which members ran again", v.methods);
+    put_labels(group, "source", "by which a member ran", {"study", "check"});
+    group.add_dimension("pair", v.pairs.size());
     std::vector<double> members, methods, finished, values;
     for (CheckPair const& pair : v.pairs) {
         members.push_back(static_cast<double>(v.members[pair.row]));
@@ -28,10 +28,10 @@ void write_pairs(GroupWriter& group, Verification const& v) {
         for (CheckPair const& pair : v.pairs) values.push_back(v.study.columns[column].values[pair.row]);
         values.insert(values.end(), v.again[column].begin(), v.again[column].end());
     }
-    group.put({"pair_member", "1", "member that ran again", {"pair"}}, members);
-    group.put({"pair_check", "1", "by which check, from 0", {"pair"}}, methods);
-    group.put({"pair_finished", "1", "1 where it came to its end", {"pair"}}, finished);
-    group.put({"value",
+    slideway::put(group, {"pair_member", "1", "member that ran again", {"pair"}}, members);
+    slideway::put(group, {"pair_check", "1", "by which check, from 0", {"pair"}}, methods);
+    slideway::put(group, {"pair_finished", "1", "1 where it came to its end", {"pair"}}, finished);
+    slideway::put(group, {"value",
                "",
                "what a member came to, in the unit of checked_name",
                {"checked", "source", "pair"},
@@ -39,18 +39,18 @@ void write_pairs(GroupWriter& group, Verification const& v) {
               values);
 }
 
-void write_numbers(GroupWriter& group, Verification const& v) {
+void write_numbers(DataFile& group, Verification const& v) {
     std::vector<std::string> columns, groups;
     for (auto const& column : v.study.columns) columns.push_back(column.name + " [" + column.unit + "]");
     for (MemberGroup const& one : v.groups) groups.push_back(one.name.empty() ? "all members" : one.name);
-    group.labels("checked", "number that is checked, with its unit", columns);
-    group.labels("members_of", "members that a number is of", groups);
+    put_labels(group, "checked", "number that is checked, with its unit", columns);
+    put_labels(group, "members_of", "members that a number is of", groups);
     auto const put = [&](std::string const& name, std::string const& unit, std::string const& meaning,
                          auto const& value) {
         std::vector<double> values(v.numbers.size());
         for (CheckedNumber const& n : v.numbers)
             values[n.group * v.study.columns.size() + n.column] = static_cast<double>(value(n));
-        group.put({name, unit, meaning, {"members_of", "checked"}, "members_of_name checked_name"}, values);
+        slideway::put(group, {name, unit, meaning, {"members_of", "checked"}, "members_of_name checked_name"}, values);
     };
     put("number", "", "what the study says, in the unit of checked_name", [](auto const& n) { return n.value; });
     put("number_half_width", "", "half the 95 % interval of it", [](auto const& n) { return n.half_width; });
@@ -72,16 +72,17 @@ void write_numbers(GroupWriter& group, Verification const& v) {
 }  // namespace
 
 void write_verification(DataFile& file, Verification const& v) {
-    GroupWriter group(file, verification_group);
-    group.attribute("resolution", std::string(resolution_names[static_cast<int>(v.resolution)]));
-    group.attribute("summary", v.summary);
-    group.attribute("settings", v.settings);
-    group.attribute("share_of_work", v.share);
+    auto const held = file.add_group(verification_group);
+    DataFile& group = *held;
+    group.put(DataFile::global, "resolution", std::string(resolution_names[static_cast<int>(v.resolution)]));
+    group.put(DataFile::global, "summary", v.summary);
+    group.put(DataFile::global, "settings", v.settings);
+    group.put(DataFile::global, "share_of_work", v.share);
     bool const refuted = std::ranges::any_of(v.numbers, &CheckedNumber::refutes_sign);
-    group.attribute("exponent_sign", std::string(refuted ? sign_refuted : "kept"));
+    group.put(DataFile::global, "exponent_sign", std::string(refuted ? sign_refuted : "kept"));
     if (v.orbit) {
-        group.attribute("orbit_end", v.orbit->end);
-        group.attribute("orbit_parting", v.orbit->parting);
+        group.put(DataFile::global, "orbit_end", v.orbit->end);
+        group.put(DataFile::global, "orbit_parting", v.orbit->parting);
     }
     if (v.numbers.empty()) return;
     write_numbers(group, v);

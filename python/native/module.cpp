@@ -87,10 +87,9 @@ nb::object array_of(Result const& result, MemoryFile const& file, DataFile::Vari
 }
 
 /// Whether a variable says where the values of others lie, and is the same in all runs of the same form.
-bool is_coordinate(MemoryFile const& file, DataFile::Variable const& variable) {
+bool is_coordinate(DataFile::Variable const& variable) {
     if (variable.type == DataFile::Type::text || variable.name == "time") return true;
-    auto const names = file.dimension_names(variable);
-    return names.size() == 1 && names.front() == variable.name;
+    return variable.dimensions.size() == 1 && variable.dimensions.front() == variable.name;
 }
 
 /// Of two results of one number the variables differ in values alone, and those of the coordinates are the same.
@@ -99,7 +98,7 @@ std::uint64_t form_of(MemoryFile const& file) {
     for (DataFile::Variable const& variable : file.variables()) {
         hash.add(variable.name);
         for (std::size_t const length : variable.shape) hash.add(std::uint64_t{length});
-        if (is_coordinate(file, variable)) hash.add(std::span(file.data(variable.id), variable.size() * DataFile::size_of(variable.type)));
+        if (is_coordinate(variable)) hash.add(std::span(file.data(variable.id), variable.size() * DataFile::size_of(variable.type)));
     }
     return hash.value();
 }
@@ -108,7 +107,7 @@ std::uint64_t form_of(MemoryFile const& file) {
 nb::list variables_of(Result const& result, MemoryFile const& file) {
     nb::list variables;
     for (DataFile::Variable const& variable : file.variables()) {
-        auto dimensions = file.dimension_names(variable);
+        auto dimensions = variable.dimensions;
         if (variable.type == DataFile::Type::text && dimensions.size() > 1) dimensions.pop_back();
         variables.append(nb::make_tuple(variable.name, nb::tuple(nb::cast(dimensions)), array_of(result, file, variable),
                                         attributes_of(file, variable.id)));
@@ -121,7 +120,7 @@ nb::dict arrays_of(Result const& result) {
     MemoryFile const& file = result.data().file;
     nb::dict arrays;
     for (DataFile::Variable const& variable : file.variables()) {
-        if (!is_coordinate(file, variable)) arrays[variable.name.c_str()] = array_of(result, file, variable);
+        if (!is_coordinate(variable)) arrays[variable.name.c_str()] = array_of(result, file, variable);
     }
     return arrays;
 }

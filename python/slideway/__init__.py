@@ -22,7 +22,7 @@ from .members import finished, statuses
 from .modules import Module, compile  # noqa: A004 (as the program's command)
 from .parts import merge, run_part
 from .resolution import Resolution, resolution
-from .results import groups, open  # noqa: A004 (slideway.open is the name that users expect)
+from .results import groups, open, tree  # noqa: A004 (slideway.open is the name that users expect)
 from .runs import info, run
 from .scenes import scene
 from .sections import sections
@@ -66,6 +66,7 @@ __all__ = [
     "sections",
     "stats",
     "statuses",
+    "tree",
 ]
 
 

@@ -110,6 +110,29 @@ def groups(result: StrPath | xr.Dataset) -> list[str]:
     return _check(name, not isinstance(result, xr.Dataset))
 
 
+@one_line
+def tree(result: StrPath | xr.Dataset) -> xr.DataTree:
+    """A result file, given by its path or its Dataset, with all of its groups: the members at the root, each group below it by its name.
+
+    Groups have the labels of the file's dimensions, as :func:`slideway.open` gives them, and speak of all members of the file.
+
+    Raises:
+        FileError: the file is not what was written; the text says which part is damaged.
+        SlidewayError: as :func:`slideway.open`, and where xarray is older than 2024.10.
+
+    >>> members = slideway.tree(tolerance_file)
+    >>> members["statistics"].peak_normal_force_mean.units
+    'N'
+    >>> sorted(members.children)
+    ['sensitivity', 'statistics', 'verification', 'yield']
+    """
+    if not hasattr(xr, "DataTree"):
+        raise SlidewayError(f"trees need xarray 2024.10 or newer, and this is {xr.__version__}; install it, or take slideway.open(path, group=...)")
+    name = file_of(result)
+    # Together, so that all parts are of one file: what was checked is not checked again.
+    return xr.DataTree.from_dict({"/": open(name), **{group: open(name, group) for group in groups(name)}})
+
+
 def path_of(result: xr.Dataset) -> str:
     """The file that a Dataset of :func:`slideway.open` comes from.
 

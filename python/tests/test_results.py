@@ -64,6 +64,18 @@ def test_yield_and_sensitivity_are_reached(result_of: Result) -> None:
     assert "way.roll" in result.slideway.sensitivity.input.values
 
 
+@pytest.mark.parametrize("name", ["ensemble", "tolerance", "stored"])
+def test_tree_has_the_members_and_every_group(result_of: Result, name: str) -> None:
+    path = result_of(name).slideway.path
+    tree = slideway.tree(path)
+    assert sorted(tree.children) == sorted(slideway.groups(path))
+    xr.testing.assert_identical(tree.to_dataset(), slideway.open(path))
+    for group in slideway.groups(path):
+        opened, within = slideway.open(path, group=group), tree[group].to_dataset()  # labels of the file's dimensions are the root's
+        assert within.attrs == opened.attrs
+        assert all(within[key].variable.identical(variable) for key, variable in opened.variables.items())
+
+
 def test_group_that_is_not_there_names_those_that_are(result_of: Result) -> None:
     path = result_of("stored").slideway.path
     with pytest.raises(slideway.SlidewayError, match='has no group "yield", but statistics'):

@@ -128,7 +128,7 @@ std::vector<std::byte> classic_file(MemoryFile const& result) {
     std::vector<DataFile::Variable> const variables = result.variables();
     for (DataFile::Variable const& variable : variables) {
         std::vector<int> shape;
-        for (std::string const& name : result.dimension_names(variable)) shape.push_back(result.dimension(name));
+        for (std::string const& name : variable.dimensions) shape.push_back(result.dimension(name));
         check(nc_def_var(file, variable.name.c_str(), type_numbers[static_cast<std::size_t>(variable.type)],
                          static_cast<int>(shape.size()), shape.data(), &id));
         put_texts(file, id, result);

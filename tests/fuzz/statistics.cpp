@@ -11,8 +11,9 @@ namespace slideway::fuzz {
 namespace {
 
 std::vector<std::byte> read(std::span<std::byte const> bytes) {
-    StatisticsShard shard = parse_statistics(bytes, "statistics.bin");
-    for (ColumnAccumulator const& column : shard.statistics.columns()) {
+    Maker maker;
+    BlockStatistics const statistics = parse_statistics(bytes, "statistics.bin", &maker);
+    for (ColumnAccumulator const& column : statistics.columns()) {
         Summary const summary = column.summary();
         Histogram const histogram = column.histogram();
         std::uint64_t inside = histogram.below + histogram.above;
@@ -26,11 +27,11 @@ std::vector<std::byte> read(std::span<std::byte const> bytes) {
     }
     // Members of its own cannot join it.
     bool const joined = accepted([&] {
-        StatisticsShard other = shard;
-        other.statistics.merge(shard.statistics);
+        BlockStatistics other = statistics;
+        other.merge(statistics);
     });
-    require(joined == shard.statistics.members().empty(), "a member joins once");
-    return to_bytes(shard);
+    require(joined == statistics.members().empty(), "a member joins once");
+    return statistics_shard(maker, statistics);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST_P(MechanismsFile, HoldsEachMembersStates) {
         plan, [states](Block& block) { numbered(block, states); },
         [&](BlockResult const& block) {
             EXPECT_EQ(block.states(), states);
-            ShardImage const image = shard_image("a shard", layout, {}, block, {});
+            ShardImage const image = shard_image("a shard", layout, {}, block);
             store.put(image.members, image.bytes);
         },
         stop);
@@ -145,7 +145,7 @@ TEST_F(DirectionsFile, HasAValueForEach) {
         quantities[static_cast<std::size_t>(quantity_column(Quantity::peak_acceleration) + i)] = i;
     for (int i = 0; i < 2; ++i)
         quantities[static_cast<std::size_t>(quantity_column(Quantity::acceleration_area) + i)] = 5 + i;
-    write_result(path(), layout, {}, {{{members, inputs, records, states, quantities, {}, {}, {}}, {}}});
+    write_result(path(), layout, {}, {{members, inputs, records, states, quantities, {}, {}, {}}});
     ResultReader const results(path());
     EXPECT_EQ(results.values("peak_acceleration"), (std::vector<double>{0, 1, 2}));
     EXPECT_EQ(results.values("acceleration_area"), (std::vector<double>{5, 6}));

@@ -39,14 +39,17 @@ ResultLayout layout() {
                         Selection{1} << static_cast<int>(Quantity::mode_time) |
                         Selection{1} << static_cast<int>(Quantity::peak_apex_force);
     layout.series = 0b101;  // y and vy
-    layout.parameters = {{"initial_y", "m", "vertical position at the start", &Inputs::y},
-                         {"joint_clearance", "m", "clearance", &Inputs::clearance_y}};
+    layout.parameters = {parameter_column("initial.y", "m", "vertical position at the start", &Inputs::y),
+                         parameter_column("joint.clearance", "m", "clearance", &Inputs::clearance_y)};
     layout.sections = most_sections;
     layout.crossings = true;
-    layout.study.axes = {{"exponent", "1", "number of the exponent", {1, 2}},
-                         {"history", "1", "rescalings", {10, 20, 30}}};
-    layout.study.columns = {{"dimension", "1", "one number", {}},
-                            {"rates", "s-1", "a matrix", {"history", "exponent"}}};
+    layout.study = {
+        {.name = "exponent", .unit = "1", .meaning = "number of the exponent", .dimensions = {"exponent"}, .values = {1, 2}},
+        {.name = "history", .unit = "1", .meaning = "rescalings", .dimensions = {"history"}, .values = {10, 20, 30}},
+        {"dimension", "1", "one number", {"member"}, "", [](EndedMember const& row, ResultColumn::Numbers& out) { out.push_back(value(row.member(), 9)); }},
+        {"rates", "s-1", "a matrix", {"member", "history", "exponent"}, "", [](EndedMember const& row, ResultColumn::Numbers& out) {
+             for (std::size_t i = 0; i < 6; ++i) out.push_back(value(row.member(), 10, i));
+         }}};
     return layout;
 }
 
@@ -56,7 +59,6 @@ struct FakeBlock {
     std::vector<Inputs> inputs;
     std::vector<MemberRecord> records;
     std::vector<double> states, quantities, samples_of_all, sections;
-    StudyValues study = StudyValues(2);
 
     explicit FakeBlock(std::vector<std::uint64_t> of) : members(std::move(of)) {
         std::sort(members.begin(), members.end());
@@ -68,9 +70,7 @@ struct FakeBlock {
             }
         }
     }
-    testing::BlockAndStudy view() const {
-        return {{members, inputs, records, states, quantities, samples_of_all, sections, {}}, study};
-    }
+    BlockResult view() const { return {members, inputs, records, states, quantities, samples_of_all, sections, {}}; }
 
 private:
     void add(std::uint64_t m) {
@@ -93,8 +93,6 @@ private:
                 sections.push_back(row < sections_of(m) ? value(m, 8, row * row_size + j) : nan);
             }
         }
-        study[0].push_back(value(m, 9));
-        for (std::size_t i = 0; i < 6; ++i) study[1].push_back(value(m, 10, i));
     }
 };
 
@@ -105,7 +103,7 @@ protected:
     std::string merged(Partition const& partition, std::string const& name = "out.nc") const {
         std::vector<FakeBlock> blocks;
         for (auto const& members : partition) blocks.emplace_back(members);
-        std::vector<testing::BlockAndStudy> views;
+        std::vector<BlockResult> views;
         for (FakeBlock const& block : blocks) views.push_back(block.view());
         write_result(path(name), layout(), {}, views, "so and so");
         ResultReader const result(path(name));
@@ -277,7 +275,7 @@ TEST_F(Merge, OfShardsTakesFilesThatAreResultsThemselves) {
 TEST_F(Merge, OfABlockThatWasCutShortAltogetherHasNoShard) {
     FakeBlock block({3, 4});
     for (MemberRecord& record : block.records) record.status = Status::not_run;
-    ShardImage const image = shard_image("a shard", layout(), {}, block.view().block, block.study);
+    ShardImage const image = shard_image("a shard", layout(), {}, block.view());
     EXPECT_TRUE(image.members.empty());
     EXPECT_TRUE(image.bytes.empty());
 }

@@ -26,7 +26,7 @@ ResultLayout layout_of(std::uint64_t members) {
     layout.quantities =
         Selection{1} << static_cast<int>(Quantity::crank_work) | Selection{1} << static_cast<int>(Quantity::mode_time);
     layout.series = 0b101;  // y and vy
-    layout.parameters = {{"initial_y", "m", "vertical position at the start", &Inputs::y}};
+    layout.parameters = {parameter_column("initial.y", "m", "vertical position at the start", &Inputs::y)};
     return layout;
 }
 
@@ -71,8 +71,8 @@ class ResultFile : public testing::OutputFolder {
 protected:
     void write_file(std::string const& file, std::vector<FakeBlock> const& blocks, int threads = 1,
                     std::function<void(DataFile&)> conclude = {}) const {
-        std::vector<testing::BlockAndStudy> views;
-        for (FakeBlock const& block : blocks) views.push_back({block.view(), {}});
+        std::vector<BlockResult> views;
+        for (FakeBlock const& block : blocks) views.push_back(block.view());
         write_result(file, layout_of(5), provenance_of(threads), views, "complete", std::move(conclude));
     }
 };
@@ -230,10 +230,10 @@ TEST_F(ResultFile, CannotNumberMembersBeyondItsIntegers) {
     constexpr std::uint64_t largest = 2147483647;
     FakeBlock block(0, 2);
     block.members = {largest - 2, largest - 1};
-    ShardImage const image = shard_image("a shard", layout_of(5), {}, block.view(), {});
+    ShardImage const image = shard_image("a shard", layout_of(5), {}, block.view());
     EXPECT_EQ(image.members, MemberSet({largest - 2, 2}));
     block.members = {largest - 1, largest};
-    EXPECT_THROW(shard_image("a shard", layout_of(5), {}, block.view(), {}), FileError);
+    EXPECT_THROW(shard_image("a shard", layout_of(5), {}, block.view()), FileError);
     EXPECT_THROW(write_result(path(), layout_of(std::uint64_t{1} << 40), {}, {}), FileError);
 }
 
@@ -286,7 +286,7 @@ TEST_F(ResultFile, HasTheBytesThatItsLayoutTells) {
     origin.scene = std::string(3000, '#');
     for (std::size_t const members : {8u, 20000u}) {
         FakeBlock const block(0, members);
-        ShardImage const image = shard_image("a shard", layout_of(members), origin, block.view(), {});
+        ShardImage const image = shard_image("a shard", layout_of(members), origin, block.view());
         std::uint64_t const payload = payload_bytes(layout_of(members));
         std::uint64_t const header = header_bytes(layout_of(members), origin);
         EXPECT_LE(image.bytes.size(), payload + header);

@@ -38,11 +38,16 @@ ResultLayout layout() {
     ResultLayout layout;
     layout.members = MemberSet({0, members});
     layout.sections = room;
-    layout.study.axes = {{"exponent", "1", "number of the exponent", {1, 2}},
-                         {"history", "1", "rescalings", {10, 20, 30}}};
-    layout.study.columns = {{"dimension", "1", "one number", {}},
-                            {"rate", "s-1", "a row", {"exponent"}},
-                            {"rates", "s-1", "a matrix", {"history", "exponent"}}};
+    layout.study = {
+        {.name = "exponent", .unit = "1", .meaning = "number of the exponent", .dimensions = {"exponent"}, .values = {1, 2}},
+        {.name = "history", .unit = "1", .meaning = "rescalings", .dimensions = {"history"}, .values = {10, 20, 30}},
+        {"dimension", "1", "one number", {"member"}, "", [](EndedMember const& row, ResultColumn::Numbers& out) { out.push_back(scalar_entry(row.member())); }},
+        {"rate", "s-1", "a row", {"member", "exponent"}, "", [](EndedMember const& row, ResultColumn::Numbers& out) {
+             for (std::size_t j = 0; j < 2; ++j) out.push_back(row_entry(row.member(), j));
+         }},
+        {"rates", "s-1", "a matrix", {"member", "history", "exponent"}, "", [](EndedMember const& row, ResultColumn::Numbers& out) {
+             for (std::size_t i = 0; i < 6; ++i) out.push_back(matrix_entry(row.member(), i / 2, i % 2));
+         }}};
     return layout;
 }
 
@@ -52,7 +57,6 @@ struct FakeBlock {
     std::vector<Inputs> inputs;
     std::vector<MemberRecord> records;
     std::vector<double> states, quantities, sections;
-    StudyValues study = StudyValues(3);
 
     FakeBlock(std::size_t first, std::size_t count)
         : inputs(count),
@@ -70,11 +74,6 @@ struct FakeBlock {
                     sections[(i * room + row) * row_size + j] = entry(member, row, j);
                 }
             }
-            study[0].push_back(scalar_entry(member));
-            for (std::size_t j = 0; j < 2; ++j) study[1].push_back(row_entry(member, j));
-            for (std::size_t n = 0; n < 3; ++n) {
-                for (std::size_t j = 0; j < 2; ++j) study[2].push_back(matrix_entry(member, n, j));
-            }
         }
     }
     BlockResult view() const { return {numbers, inputs, records, states, quantities, {}, sections, {}}; }
@@ -83,8 +82,8 @@ struct FakeBlock {
 class SectionsFile : public testing::OutputFolder {
 protected:
     void write_with(ResultLayout const& with, std::vector<FakeBlock> const& blocks) const {
-        std::vector<testing::BlockAndStudy> views;
-        for (FakeBlock const& block : blocks) views.push_back({block.view(), block.study});
+        std::vector<BlockResult> views;
+        for (FakeBlock const& block : blocks) views.push_back(block.view());
         write_result(path(), with, {}, views);
     }
     void write(std::vector<FakeBlock> const& blocks) const { write_with(layout(), blocks); }
@@ -270,11 +269,12 @@ TEST_F(SectionsFile, LeavesColumnsOfMembersThatNeverCameNaN) {
     EXPECT_EQ(results.values("history"), (std::vector<double>{10, 20, 30}));  // an axis is whole in any case
 }
 
-TEST(StudyTable, WidthIsTheProductOfTheAxes) {
-    StudyTable const table = layout().study;
-    EXPECT_EQ(table.width(table.columns[0]), 1u);
-    EXPECT_EQ(table.width(table.columns[1]), 2u);
-    EXPECT_EQ(table.width(table.columns[2]), 6u);
+TEST(ResultColumns, WidthIsTheProductOfTheAxes) {
+    ResultColumns const list = result_columns(layout());
+    auto const width = [&](char const* name) { return list.width(*std::ranges::find(list.columns, name, &ResultColumn::name)); };
+    EXPECT_EQ(width("dimension"), 1u);
+    EXPECT_EQ(width("rate"), 2u);
+    EXPECT_EQ(width("rates"), 6u);
 }
 
 TEST(PayloadBytes, CountSectionsAndColumnsOfAStudy) {

@@ -13,7 +13,6 @@ class WrittenResult : public testing::OutputFolder {
 protected:
     static void put_value(NetcdfFile& file, double value) {
         int const variable = file.add_variable("value", DataFile::Type::float64, {});
-        file.end_definitions();
         std::size_t const none = 0;
         file.write(variable, {&none, 0}, {&none, 0}, &value);
     }

@@ -20,12 +20,6 @@
 
 namespace slideway::testing {
 
-/// One block and what its study says of it.
-struct BlockAndStudy {
-    BlockResult block;
-    StudyValues study;
-};
-
 inline std::string bytes_of(std::string const& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -78,18 +72,17 @@ protected:
     }
 
     /// Each block to a shard.
-    void put_blocks(std::string const& shards, ResultLayout const& layout, Provenance const& provenance,
-                    std::vector<BlockAndStudy> const& blocks) const {
+    void put_blocks(std::string const& shards, ResultLayout const& layout, Provenance const& provenance, std::vector<BlockResult> const& blocks) const {
         ShardStore store(shards);
-        for (BlockAndStudy const& block : blocks) {
-            ShardImage const image = shard_image("a shard", layout, provenance, block.block, block.study);
+        for (BlockResult const& block : blocks) {
+            ShardImage const image = shard_image("a shard", layout, provenance, block);
             if (!image.members.empty()) store.put(image.members, image.bytes);
         }
     }
 
     /// The result file of blocks, by way of their shards.
     void write_result(std::string const& file, ResultLayout const& layout, Provenance const& provenance,
-                      std::vector<BlockAndStudy> const& blocks, std::string const& completeness = "complete",
+                      std::vector<BlockResult> const& blocks, std::string const& completeness = "complete",
                       std::function<void(DataFile&)> conclude = {}) const {
         std::string const shards =
             shards_of({"a program", "fused", layout.members, provenance.scene}, "shards_of_result");

@@ -48,10 +48,12 @@ Found exponents(std::string_view study, std::string_view starts = scattered_star
     found.values.resize(all.count() * found.k);
     found.errors = found.values;
     auto const keep = [&](BlockResult const& block) {
-        StudyValues const values = table.values(block);
-        auto const at = static_cast<std::ptrdiff_t>(block.members.front() * found.k);
-        std::copy(values[0].begin(), values[0].end(), found.values.begin() + at);
-        std::copy(values[1].begin(), values[1].end(), found.errors.begin() + at);
+        for (std::size_t i = 0; i < block.members.size(); ++i) {
+            std::vector<double> const row = table.row(block, i);  // exponents, then their errors
+            std::size_t const at = block.members[i] * found.k;
+            std::copy_n(row.begin(), found.k, found.values.begin() + static_cast<std::ptrdiff_t>(at));
+            std::copy_n(row.begin() + static_cast<std::ptrdiff_t>(found.k), found.k, found.errors.begin() + static_cast<std::ptrdiff_t>(at));
+        }
     };
     EnsembleTotals const totals =
         run_ensemble(plan, cpu_backend(best_isa())->kernel(scene.parts, true), keep, StopRequest{});

@@ -173,7 +173,7 @@ protected:
     std::vector<std::byte> merged() const {
         ShardFolder const from = folder();
         BlockStatistics all(plan());
-        for (Shard const& shard : from.listed()) all.merge(parse_statistics(from.read(shard), shard.name).statistics);
+        for (Shard const& shard : from.listed()) all.merge(parse_statistics(from.read(shard), shard.name));
         return all.bytes();
     }
     void expect_whole(std::uint64_t blocks) const {

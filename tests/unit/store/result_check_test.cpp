@@ -30,7 +30,6 @@ protected:
         DataFile& group = *held_group;
         int const checked = group.add_variable("difference", Type::float64, member);
         group.put(DataFile::global, "summary", "resolved");
-        file.end_definitions();
         std::array const first{std::size_t{0}}, count{std::size_t{3}};
         std::array const statuses{'\0', '\0', '\1'};
         std::array const heights{1.0, 2.0, 3.0};
@@ -192,7 +191,6 @@ TEST_F(Sealed, IsHashedAlikeInMemoryAndOnTheDisk) {
         std::array const dimension{file.add_dimension(name, 1)};
         file.put(file.add_variable(name, Type::int32, dimension), "scale", 0.5);
     }
-    file.end_definitions();
     seal(file);
     std::vector<std::byte> const bytes = file.close_to_bytes();
     SealCheck const found = check_seal(NetcdfFile::open_in_memory("a file", bytes));

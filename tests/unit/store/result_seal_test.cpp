@@ -33,7 +33,6 @@ TEST_F(PayloadHash, CoversNamesShapesAndData) {
         int const dimension = file.add_dimension("n", 2);
         int const last = file.add_variable("w", DataFile::Type::int32, {});
         int const variable = file.add_variable("v", DataFile::Type::float64, {&dimension, 1});
-        file.end_definitions();
         std::size_t const start = 0, count = 2;
         file.write(variable, {&start, 1}, {&count, 1}, values.data());
         file.write(last, {}, {}, &scalar);

@@ -28,7 +28,7 @@ struct Block {
     BlockResult view() const { return {members, inputs, records, states, quantities, {}, {}, {}}; }
 };
 
-ShardImage image_of(BlockResult const& block) { return shard_image("a shard", {}, {}, block, {}); }
+ShardImage image_of(BlockResult const& block) { return shard_image("a shard", {}, {}, block); }
 
 class Writer : public testing::OutputFolder {};
 

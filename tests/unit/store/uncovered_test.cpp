@@ -25,7 +25,6 @@ protected:
         file.add_variable("other", DataFile::Type::int32, member);
         file.add_variable("along", DataFile::Type::int32, none);
         file.add_group("statistics")->add_dimension("bin", 4);
-        file.end_definitions();
         std::array<char, 3> const statuses{};
         file.write(file.variables()[0].id, statuses.data());
         seal(file);

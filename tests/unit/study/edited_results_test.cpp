@@ -30,7 +30,6 @@ protected:
             for (char const* const name : column.dimensions) dimensions.push_back(file.dimension(name));
             variables.push_back(file.add_variable(column.name, DataFile::Type::float64, dimensions));
         }
-        file.end_definitions();
         for (std::size_t i = 0; i < columns.size(); ++i) {
             std::vector<std::size_t> count;
             for (char const* const name : columns[i].dimensions) count.push_back(length_of(name));
