@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ bool is_before(FailedMember const& a, FailedMember const& b) { return a.member <
 }  // namespace
 
 BlockStatistics::BlockStatistics(StatisticsPlan const& plan)
-    : columns_(columns_of(plan.mechanism, plan.quantities).size()), met_(plan.limits.size()) {}
+    : counts_(first_met + plan.limits.size() + 1), columns_(columns_of(plan.mechanism, plan.quantities).size()) {}
 
 void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) {
     std::vector<QuantityColumn> const columns = columns_of(plan.mechanism, plan.quantities);
@@ -32,8 +33,8 @@ void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) 
         MemberRecord const& record = block.records[i];
         if (record.status == Status::not_run) continue;
         members_.add({block.members[i], 1});
-        ++ended_[static_cast<std::size_t>(record.status)];
-        for (std::size_t k = 0; k < work_.size(); ++k) work_[k] += record.*work_table[k].of;
+        ++counts_[static_cast<std::size_t>(record.status)];
+        for (std::size_t k = 0; k < work_table.size(); ++k) counts_[status_count + k] += record.*work_table[k].of;
         if (record.status != Status::finished) {
             failed_.push_back({block.members[i], record.status, record.time});
             continue;
@@ -44,29 +45,26 @@ void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) 
         for (std::size_t k = 0; k < limited.size(); ++k) {
             double const value = row[limited[k]];
             bool const within = plan.limits[k].low <= value && value <= plan.limits[k].high;  // not of NaN
-            met_[k] += within;
+            counts_[first_met + k] += within;
             all = all && within;
         }
-        all_met_ += all;
+        counts_.back() += all;
     }
     std::ranges::sort(failed_, is_before);
     if (failed_.size() > most_failed) failed_.resize(most_failed);
 }
 
 void BlockStatistics::merge(BlockStatistics const& other) {
-    if (other.columns_.size() != columns_.size() || other.met_.size() != met_.size()) {
+    if (other.columns_.size() != columns_.size() || other.counts_.size() != counts_.size()) {
         throw FileError(fmt::format("cannot merge statistics of {} columns and {} limits with those of {} and {}",
-                                    columns_.size(), met_.size(), other.columns_.size(), other.met_.size()));
+                                    columns_.size(), met().size(), other.columns_.size(), other.met().size()));
     }
     if (MemberSet const both = members_.common(other.members_); !both.empty()) {
         throw FileError(fmt::format("cannot merge statistics: both hold the members {}", both.text()));
     }
     members_.add(other.members_);
-    for (std::size_t i = 0; i < ended_.size(); ++i) ended_[i] += other.ended_[i];
-    for (std::size_t i = 0; i < work_.size(); ++i) work_[i] += other.work_[i];
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
     for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i].merge(other.columns_[i]);
-    for (std::size_t i = 0; i < met_.size(); ++i) met_[i] += other.met_[i];
-    all_met_ += other.all_met_;
     std::vector<FailedMember> failed;
     std::ranges::merge(failed_, other.failed_, std::back_inserter(failed), is_before);
     if (failed.size() > most_failed) failed.resize(most_failed);
@@ -81,11 +79,9 @@ std::vector<std::byte> BlockStatistics::bytes() const {
         out.put(range.first);
         out.put(range.count);
     }
-    out.append(std::as_bytes(std::span(ended_)));
-    out.append(std::as_bytes(std::span(work_)));
-    out.put(std::uint64_t{met_.size()});
-    out.append(std::as_bytes(std::span(met_)));
-    out.put(all_met_);
+    out.append(std::as_bytes(std::span(counts_).first(first_met)));
+    out.put(std::uint64_t{met().size()});
+    out.append(std::as_bytes(std::span(counts_).subspan(first_met)));
     out.put(std::uint64_t{failed_.size()});
     for (FailedMember const& member : failed_) {
         out.put(member.member);
@@ -107,13 +103,11 @@ BlockStatistics BlockStatistics::parse(std::span<std::byte const> bytes, std::st
         if (count == 0 || first + count < first) in.fail("a range of members is none");
         read.members_.add({first, count});
     }
-    std::uint64_t ended = 0;
-    for (std::uint64_t& count : read.ended_) ended += count = in.word();
-    if (ended != read.members_.count()) in.fail("its statuses do not add up");
-    for (std::uint64_t& count : read.work_) count = in.word();
-    read.met_.resize(in.count(word));
-    for (std::uint64_t& count : read.met_) count = in.word();
-    read.all_met_ = in.word();
+    for (std::size_t i = 0; i < first_met; ++i) read.counts_.push_back(in.word());
+    auto const ends = std::span(read.counts_).first(status_count);
+    if (std::accumulate(ends.begin(), ends.end(), std::uint64_t{0}) != read.members_.count()) in.fail("its statuses do not add up");
+    read.counts_.resize(first_met + in.count(word) + 1);
+    for (std::size_t i = first_met; i < read.counts_.size(); ++i) read.counts_[i] = in.word();
     read.failed_.resize(in.count(3 * word));
     for (FailedMember& member : read.failed_) {
         member.member = in.word();

@@ -1,7 +1,6 @@
 // What members come to together, where none of them is stored.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -50,16 +49,16 @@ public:
     void merge(BlockStatistics const& other);
 
     MemberSet const& members() const { return members_; }
-    std::uint64_t ended(Status status) const { return ended_[static_cast<std::size_t>(status)]; }
+    std::uint64_t ended(Status status) const { return counts_[static_cast<std::size_t>(status)]; }
     /// Of `columns_of` the quantities.
     std::span<ColumnAccumulator const> columns() const { return columns_; }
     /// Members that meet each limit; all of them.
-    std::span<std::uint64_t const> met() const { return met_; }
-    std::uint64_t all_met() const { return all_met_; }
+    std::span<std::uint64_t const> met() const { return std::span(counts_).subspan(first_met, counts_.size() - first_met - 1); }
+    std::uint64_t all_met() const { return counts_.back(); }
     std::span<FailedMember const> failed() const { return failed_; }
 
     /// Of all members, in the order of work_table.
-    std::span<std::uint64_t const> work() const { return work_; }
+    std::span<std::uint64_t const> work() const { return std::span(counts_).subspan(status_count, work_table.size()); }
 
     /// A magic word with a version, then little-endian numbers; the same for the same members, however they came
     /// together.
@@ -71,11 +70,9 @@ private:
     BlockStatistics() = default;
 
     MemberSet members_;
-    std::array<std::uint64_t, status_count> ended_{};
-    std::array<std::uint64_t, work_table.size()> work_{};
+    static constexpr std::size_t first_met = status_count + work_table.size();
+    std::vector<std::uint64_t> counts_;  // of ends by status, of work, of members that meet each limit, of those that meet all
     std::vector<ColumnAccumulator> columns_;
-    std::vector<std::uint64_t> met_;
-    std::uint64_t all_met_ = 0;
     std::vector<FailedMember> failed_;  // ascending
 };
 

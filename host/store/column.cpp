@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -113,6 +114,17 @@ void put_texts(DataFile& file, std::string const& name, std::string const& dimen
     ResultColumn::Numbers const letters = letters_of(texts, width);
     std::vector<char> const stored(letters.begin(), letters.end());
     file.write(define(file, label_column(name, dimension, name + "_length", meaning)), stored.data());
+}
+
+std::vector<std::string> read_texts(DataFile const& file, DataFile::Variable const& variable) {
+    std::vector<std::string> texts;
+    if (variable.type != DataFile::Type::text || variable.shape.size() != 2) return texts;
+    std::vector<char> const letters = file.read<char>(variable);
+    for (std::size_t row = 0; row < variable.shape[0]; ++row) {
+        std::string_view const padded(letters.data() + row * variable.shape[1], variable.shape[1]);
+        texts.emplace_back(padded.substr(0, padded.find('\0')));
+    }
+    return texts;
 }
 
 void put_labels(DataFile& file, std::string const& name, std::string const& meaning, std::vector<std::string> const& labels) {

@@ -39,6 +39,7 @@ struct ResultColumn {
     std::function<void(std::uint64_t member, Numbers& out)> before = {};
     Numbers values = {};  // of a column that no member changes
     std::vector<DataFile::Attribute> attributes = {};
+    bool summarised = false;  // by commands, over the members that finished
 };
 
 /// Columns, in their order in the file, with the dimensions they lie along and what the file says of itself.
@@ -58,7 +59,8 @@ struct ResultColumns {
 /// @return the variables  @throws FileError, also if the numbers of members are beyond 32 bits
 std::vector<int> define(DataFile& file, ResultColumns const& list, MemberSet const& members = {});
 /// Numbers into a variable of a column, from `first` along its first dimension on.
-void put_numbers(DataFile& file, int variable, ResultColumns const& list, ResultColumn const& column, ResultColumn::Numbers const& numbers, std::size_t first = 0);
+void put_numbers(DataFile& file, int variable, ResultColumns const& list, ResultColumn const& column, ResultColumn::Numbers const& numbers,
+                 std::size_t first = 0);
 
 void put_attributes(DataFile& file, int variable, std::vector<DataFile::Attribute> const& attributes);
 
@@ -72,6 +74,8 @@ template <std::ranges::contiguous_range Values> void put(DataFile& file, ResultC
 }
 inline void put(DataFile& file, ResultColumn const& column, int value) { put(file, column, std::span(&value, 1)); }
 inline void put(DataFile& file, ResultColumn const& column, double value) { put(file, column, std::span(&value, 1)); }
+/// The texts of a variable of them, one for each entry of its first dimension; none of any other variable.
+std::vector<std::string> read_texts(DataFile const& file, DataFile::Variable const& variable);
 /// A text for each entry of a dimension, in the variable `<name>_name`.
 void put_texts(DataFile& file, std::string const& name, std::string const& dimension, std::string const& meaning, std::vector<std::string> const& texts);
 /// A dimension with a text for each entry.

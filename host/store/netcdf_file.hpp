@@ -2,6 +2,8 @@
 // netCDF-C is not thread-safe: one thread at a time may be in here, whatever file it works on.
 #pragma once
 
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,17 +51,17 @@ public:
     /// What an attribute is, to the last bit: netCDF's number of its type, the number of its values, the values.
     std::vector<std::byte> attribute_bytes(int variable, std::string const& name) const;
 
-    /// Of the types that netCDF numbers, those of `Type`.
-    static bool stores(int type);
+    /// Attributes, by the path of what has them, a "." for the file; and in words what is of another type than `Type`, by `uncovered`.
+    void list_content(std::string const& prefix, std::map<std::string, std::set<std::string>>& attributes, std::vector<std::string>& foreign) const;
     /// Not in memory.
     bool is_on_disk() const { return kind_ == Kind::written || kind_ == Kind::read; }
 
 private:
-    friend class UncoveredContent;
     enum class Kind { other, written, read, group };  // written, read: at a path; group: of a file that another closes
     NetcdfFile(std::string path, int id, Kind kind = Kind::other) : path_(std::move(path)), id_(id), kind_(kind) {}
     int close_with_reason(bool& hdf5_failed) noexcept;
     void require(int code, std::string_view action) const;
+    static bool stores(int type);  // of the types that netCDF numbers, those of `Type`
     template <class Call> std::string name_by(Call call) const;
     template <class Call> int number_by(std::string_view action, Call call) const;
     std::vector<std::string> strings(int variable, std::string const& name, std::size_t count) const;

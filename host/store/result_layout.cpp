@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "host/store/result_view.hpp"
 
 namespace slideway {
 namespace {
@@ -77,6 +80,7 @@ void add_quantities(ResultColumns& list, ResultLayout const& layout) {
             column.dimensions.emplace_back(quantity.dimension);
             column.coordinates = std::string(quantity.dimension) + "_name";
         }
+        column.summarised = true;
         list.columns.push_back(std::move(column));
     }
 }
@@ -126,6 +130,16 @@ void add_sections(ResultColumns& list, ResultLayout const& layout) {
     }
 }
 
+std::vector<std::string> parts_of(std::string const& text, std::string_view between) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from < text.size();) {
+        std::size_t const to = std::min(text.find(between, from), text.size());
+        parts.push_back(text.substr(from, to - from));
+        from = to + between.size();
+    }
+    return parts;
+}
+
 }  // namespace
 
 void add_columns(std::vector<QuantityColumn>& columns, QuantityColumn first) {
@@ -162,11 +176,22 @@ ResultColumn parameter_column(std::string_view key, std::string_view unit, std::
     return of_members(variable_name(key), std::string(unit), std::string(meaning), of);
 }
 
-std::vector<DataFile::Attribute> quantity_names(Mechanism mechanism, Selection quantities) {
-    std::vector<char const*> names;
-    for (OutputQuantity const& quantity : selected(outputs_of(mechanism).quantities, quantities)) names.push_back(quantity.name);
-    if (names.empty()) return {};
-    return {{"quantities", fmt::format("{}", fmt::join(names, " "))}};
+std::vector<QuantityColumn> stored_columns(ResultView const& results) {
+    std::vector<std::string> names = parts_of(results.attribute("quantities"), " "), units = parts_of(results.attribute("quantity_units"), ", ");
+    // Earlier versions did not say, and knew those of the table alone.
+    if (names.empty() && results.stores_members()) std::ranges::transform(quantity_table, std::back_inserter(names), &QuantityInfo::name);
+    std::vector<QuantityColumn> columns;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        std::string const& name = names[i];
+        if (results.stores_members() && !results.has(name)) continue;
+        QuantityColumn column{name, "", "", 0, 0, "1", name};
+        auto const* const known = std::ranges::find_if(quantity_table, [&](QuantityInfo const& one) { return name == one.name; });
+        if (known != std::end(quantity_table)) column = {name, known->dimension != nullptr ? known->dimension : "", "", 0, 0, known->unit, known->long_name};
+        if (i < units.size()) column.unit = units[i];
+        if (results.has(name)) column.unit = results.unit(name), column.long_name = results.long_name(name);
+        add_columns(columns, std::move(column));
+    }
+    return columns;
 }
 
 ResultColumn status_column(std::string name, std::string meaning, std::string dimension) {
@@ -180,7 +205,6 @@ ResultColumn status_column(std::string name, std::string meaning, std::string di
 ResultColumns result_columns(ResultLayout const& layout) {
     ResultColumns list;
     if (!layout.sweep.empty()) list.attributes.push_back({"sweep_parameter", layout.sweep});
-    for (DataFile::Attribute& names : quantity_names(layout.mechanism, layout.quantities)) list.attributes.push_back(std::move(names));
     add_coordinates(list, layout);
     add_records(list, layout);
     add_quantities(list, layout);
@@ -190,6 +214,11 @@ ResultColumns result_columns(ResultLayout const& layout) {
         list.columns.push_back(column);
     }
     add_sections(list, layout);
+    std::vector<std::string> summarised;
+    for (ResultColumn const& column : list.columns) {
+        if (column.summarised) summarised.push_back(column.name);
+    }
+    if (!summarised.empty()) list.attributes.push_back({"quantities", fmt::format("{}", fmt::join(summarised, " "))});
     return list;
 }
 

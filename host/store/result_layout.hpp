@@ -18,6 +18,8 @@
 
 namespace slideway {
 
+class ResultView;
+
 /// What a member's run cost, as numbers of a result.
 struct WorkCounter {
     char const* name;  // of the column
@@ -49,6 +51,8 @@ struct QuantityColumn {
 void add_columns(std::vector<QuantityColumn>& columns, QuantityColumn first);
 /// A column for each number of the quantities, in the order of the mechanism's outputs.
 std::vector<QuantityColumn> columns_of(Mechanism mechanism, Selection quantities);
+/// Those that a result names itself, in the order of the file: a mechanism's own are known without its module.  Places count from the first of each.
+std::vector<QuantityColumn> stored_columns(ResultView const& results);
 /// The one that a limit is of; nullptr without it.
 QuantityColumn const* column_of(std::vector<QuantityColumn> const& columns, Limit const& limit);
 
@@ -74,11 +78,9 @@ struct ResultLayout {
     std::shared_ptr<MemberTable const> labelled;                                                // whose columns of text name the members
 };
 
-/// Also names, for readers that do not know the mechanism, the quantities (`quantities`).
+/// Also names, for readers that do not know the mechanism, the columns that are summed up (`quantities`).
 ResultColumns result_columns(ResultLayout const& layout);
 
-/// The attribute `quantities`; none without any.
-std::vector<DataFile::Attribute> quantity_names(Mechanism mechanism, Selection quantities);
 /// One that holds statuses, with `flag_values` and `flag_meanings`.
 ResultColumn status_column(std::string name, std::string meaning, std::string dimension);
 

@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/base/file_lock.hpp"
 #include "host/base/numbers.hpp"
+#include "host/store/memory_file.hpp"
 #include "host/store/result_seal.hpp"
 
 namespace slideway {
@@ -89,6 +90,30 @@ void require_sound(std::string const& part) {
     if (!check_seal(file).intact()) throw FileError(part + ": does not hold what was written to it");
 }
 
+/// Writes those members of a block that have ended.
+MemberSet write_block(DataFile& file, ResultLayout layout, BlockResult const& block) {
+    std::vector<std::size_t> places;
+    std::vector<std::vector<double>> study;
+    layout.members = {};
+    for (std::size_t i = 0; i < block.members.size(); ++i) {
+        if (block.records[i].status == Status::not_run) continue;
+        places.push_back(i);
+        study.push_back(layout.study_row ? layout.study_row(block, i) : std::vector<double>());
+        layout.members.add({block.members[i], 1});
+        if (layout.sections > 0) layout.section_rows += sections_of(block, i).size() / section_columns(block.states());
+    }
+    if (places.empty()) return {};
+    ResultColumns const list = result_columns(layout);
+    std::vector<int> const variables = define(file, list, layout.members);
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+        ResultColumn const& column = list.columns[i];
+        ResultColumn::Numbers numbers;
+        for (std::size_t k = 0; k < places.size() && column.source; ++k) column.source({block, places[k], study[k]}, numbers);
+        put_numbers(file, variables[i], list, column, numbers);
+    }
+    return layout.members;
+}
+
 std::string lock_file_of(std::string const& path) { return path + ".part.lock"; }
 
 /// The right to write the file: HDF5's own locks may be switched off, and it takes them only once the file is emptied.
@@ -112,6 +137,23 @@ void write_part(std::string const& part, std::string const& completeness, std::f
 }
 
 }  // namespace
+
+MergedShard memory_shard(std::string const& name, ResultLayout const& layout, BlockResult const& block) {
+    MemoryFile shard(name);
+    MemberSet members = write_block(shard, layout, block);
+    return {std::move(members), [shard] { return std::make_unique<MemoryFile>(shard); }};
+}
+
+ShardImage shard_image(std::string const& name, ResultLayout const& layout, Provenance const& provenance, BlockResult const& block) {
+    NetcdfFile file = NetcdfFile::create_in_memory(name);
+    put_attributes(file, DataFile::global, attributes_of(provenance));
+    ShardImage image{write_block(file, layout, block), {}};
+    if (image.members.empty()) return image;
+    file.put(DataFile::global, "completeness", "shard");
+    seal(file);
+    image.bytes = file.close_to_bytes();
+    return image;
+}
 
 void write_merged(DataFile& file, std::vector<MergedShard> const& shards, ResultMerge& merge) {
     MemberSet const& all = merge.layout.members;

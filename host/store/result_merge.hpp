@@ -1,4 +1,4 @@
-// Shards to one result file.
+// Blocks of members to shards, and these to one result file.
 #pragma once
 
 #include <functional>
@@ -36,6 +36,11 @@ struct MergedShard {
     MemberSet members;
     std::function<std::unique_ptr<DataFile>()> open;
 };
+
+/// @param layout of the run; its members do not count.  @param name of the file, for messages.  @throws FileError
+ShardImage shard_image(std::string const& name, ResultLayout const& layout, Provenance const& provenance, BlockResult const& block);
+/// The same in memory, without provenance.
+MergedShard memory_shard(std::string const& name, ResultLayout const& layout, BlockResult const& block);
 
 /// The members of the shards, in order, into an empty file.
 void write_merged(DataFile& file, std::vector<MergedShard> const& shards, ResultMerge& merge);

@@ -18,6 +18,7 @@
 #include "host/base/memory_room.hpp"
 #include "host/base/open_file.hpp"
 #include "host/run/ranks.hpp"
+#include "host/store/column.hpp"
 
 namespace slideway {
 
@@ -79,9 +80,9 @@ std::string look_apart(std::string const& path, std::function<std::string(Result
 
 }  // namespace
 
-ResultView::ResultView(DataFile const& file) : file_(&file), variables_(file.variables()) {
+ResultView::ResultView(std::shared_ptr<DataFile const> file) : variables_(file->variables()), file_(std::move(file)) {
     std::string const name = stores_members() ? "status" : "status_count";
-    if (!has(name) || shape(name).size() != 1) throw FileError(file.path() + ": is a netCDF file, but not a result of slideway");
+    if (!has(name) || shape(name).size() != 1) throw FileError(path() + ": is a netCDF file, but not a result of slideway");
 }
 
 DataFile::Variable const& ResultView::find(std::string const& variable) const {
@@ -130,13 +131,7 @@ std::vector<double> ResultView::values(std::string const& variable, std::size_t 
 std::vector<std::string> ResultView::texts(std::string const& name) const {
     DataFile::Variable const& variable = find(name);
     if (variable.type != DataFile::Type::text || variable.shape.size() != 2) throw FileError(fmt::format("{}: variable {} holds no texts", path(), name));
-    std::vector<char> const letters = file_->read<char>(variable);
-    std::vector<std::string> texts;
-    for (std::size_t row = 0; row < variable.shape[0]; ++row) {
-        std::string_view const padded(letters.data() + row * variable.shape[1], variable.shape[1]);
-        texts.emplace_back(padded.substr(0, padded.find('\0')));
-    }
-    return texts;
+    return read_texts(*file_, variable);
 }
 
 std::vector<double> ResultView::column(std::string const& variable, std::size_t index) const {
@@ -151,8 +146,8 @@ std::vector<double> ResultView::column(std::string const& variable, std::size_t 
     return values;
 }
 
-ResultReader::ResultReader(std::string const& path) : OpenResult{NetcdfFile::open(path)}, ResultView(file) {
-    format_of(file);
+ResultReader::ResultReader(std::string const& path) : ResultView(std::make_shared<NetcdfFile const>(NetcdfFile::open(path))) {
+    format_of(*file_);
     if (stored_hash().empty()) throw FileError(path + ": is unfinished: the run that wrote it did not come to its end");
 }
 

@@ -18,7 +18,7 @@ namespace slideway {
 class ResultView {
 public:
     /// @throws FileError if the file has no `status` of members and no counts of them, so is no result of slideway.
-    explicit ResultView(DataFile const& file);
+    explicit ResultView(DataFile const& file) : ResultView(std::shared_ptr<DataFile const>(&file, [](DataFile const*) {})) {}
 
     std::vector<DataFile::Dimension> dimensions() const { return file_->dimensions(); }
     /// Whether the members are there, or what they come to together (`store` is "statistics").
@@ -45,28 +45,24 @@ public:
 private:
     DataFile::Variable const& find(std::string const& variable) const;
 
-    DataFile const* file_;
     std::vector<DataFile::Variable> variables_;
-};
 
-/// A file that a reader keeps open; a base, so that it is there before the view of it.
-struct OpenResult {
-    NetcdfFile file;
+protected:
+    explicit ResultView(std::shared_ptr<DataFile const> file);
+    std::shared_ptr<DataFile const> file_;  // somebody else's, or a reader's own
 };
 
 /// A finished result file; usable wherever a view is.  Of files that were not just written `check_result` comes first.
-class ResultReader : private OpenResult, public ResultView {
+class ResultReader : public ResultView {
 public:
     /// @throws FileError if the file is missing, not netCDF, not a result of slideway, of a newer format, or unfinished.
     explicit ResultReader(std::string const& path);
-    ResultReader(ResultReader const&) = delete;  // the view goes by the file's place
-    ResultReader& operator=(ResultReader const&) = delete;
 
     std::string stored_hash() const { return attribute("payload_hash"); }
-    std::string computed_hash() const { return payload_hash(file); }  // reads all data
+    std::string computed_hash() const { return payload_hash(*file_); }  // reads all data
     /// Of a file that was just written and looked at.
-    SealCheck seal() const { return {format_of(file), stored_hash(), attribute("metadata_hash"), stored_hash(), attribute("metadata_hash")}; }
-    SealCheck check() const { return check_seal(file); }  // reads all data
+    SealCheck seal() const { return {format_of(*file_), stored_hash(), attribute("metadata_hash"), stored_hash(), attribute("metadata_hash")}; }
+    SealCheck check() const { return check_seal(static_cast<NetcdfFile const&>(*file_)); }  // reads all data
 };
 
 /// Stored numbers as what they count or name.  One that is out of range, in a file that was edited, becomes 0, and no known status.

@@ -89,7 +89,7 @@ std::string count_text(std::uint64_t members) {
 
 }  // namespace
 
-ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)), has_table_(wanted.table_copy.has_value()) {
+ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)), has_table_(wanted.table.has_value()) {
     // Parts begin one after another: the first writes the identity.
     auto const begins = make_and_lock(folder_);
     bool const is_whole = wanted.part.empty();
@@ -140,7 +140,7 @@ void ShardClaim::begin(Wanted const& wanted) {
             mended_ = folder.damaged_identity();
             folder.mend();
             put_aside(damaged, wanted.mine);
-            write_table_copy(wanted);
+            write_table(wanted);
             return;
         }
         require_alone(wanted);
@@ -162,14 +162,14 @@ void ShardClaim::take_over(Wanted const& wanted) {
         remove_file(in_folder(folder_, shard_names::finished));
     }
     write_identity(folder_, wanted.identity);
-    write_table_copy(wanted);
+    write_table(wanted);
 }
 
 /// After the identity, so that it is never anybody's; one that a killed process had not written yet is written now.
-void ShardClaim::write_table_copy(Wanted const& wanted) const {
-    if (!wanted.table_copy) return;
-    std::string const path = in_folder(folder_, wanted.table_copy->name);
-    if (!is_there(path) || read_bytes(path) != wanted.table_copy->bytes) write_durably(path, wanted.table_copy->bytes);
+void ShardClaim::write_table(Wanted const& wanted) const {
+    if (!wanted.table) return;
+    std::string const path = in_folder(folder_, shard_names::table);
+    if (!is_there(path) || read_bytes(path) != *wanted.table) write_durably(path, *wanted.table);
 }
 
 /// What is damaged must not stand in the way of its successor, but may be worth a look.  Other parts see to theirs.

@@ -14,17 +14,12 @@ namespace slideway {
 /// Held by the process that runs the whole, or by each of those that run a part of it, which write side by side.
 class ShardClaim {
 public:
-    /// A copy of the table of members that the scene names, kept beside the run's identity.
-    struct TableCopy {
-        std::string name;  // of a kind that is not foreign
-        std::vector<std::byte> bytes;
-    };
     struct Wanted {
         RunIdentity identity;
         MemberSet mine;    // what this process, with its ranks, is to run
         std::string part;  // "3-of-8"; "" for the whole run
         bool resume = false;
-        std::optional<TableCopy> table_copy = std::nullopt;
+        std::optional<std::vector<std::byte>> table = std::nullopt;  // of members that the scene names: a copy is kept beside the identity
     };
     /// Makes the folder or goes on with it.  @throws SceneError if it holds finished members of another identity, or of these and
     /// `resume` is not set, or shards of which nothing says what they belong to; FileError if another process works on them.
@@ -59,7 +54,7 @@ private:
     void require_one_division(std::string const& part) const;
     void put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine);
     void take_over(Wanted const& wanted);
-    void write_table_copy(Wanted const& wanted) const;
+    void write_table(Wanted const& wanted) const;
     void remove_content(bool own_table);
 
     std::string const folder_;

@@ -42,6 +42,12 @@ struct Shard {
     MemberSet members;
 };
 
+/// A shard that is to be: of the members of a block that have ended; those that were cut short are not in it.
+struct ShardImage {
+    MemberSet members;
+    std::vector<std::byte> bytes;  // empty if none have ended
+};
+
 /// One that is not what was written, and so does not count; or a manifest with lines that cannot be read, and so without their members.
 struct DamagedShard {
     Shard shard;

@@ -1,7 +1,6 @@
 #include "host/store/shard_writer.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +9,17 @@
 #include "host/base/error.hpp"
 
 namespace slideway {
+namespace {
+
+KeptBlock kept(BlockResult const& block) {
+    auto const of = [](auto values) { return std::vector(values.begin(), values.end()); };
+    return [members = of(block.members), inputs = of(block.inputs), records = of(block.records), states = of(block.final_states),
+            quantities = of(block.quantities), series = of(block.series), sections = of(block.sections), growths = of(block.growths)] {
+        return BlockResult{members, inputs, records, states, quantities, series, sections, growths};
+    };
+}
+
+}  // namespace
 
 void ShardStore::begin_manifest() {
     for (int number = 1; !manifest_; ++number) {
@@ -78,7 +88,7 @@ void ShardWriter::write(BlockResult const& block) {
         changed_.wait(lock, [this] { return failure_ || waiting_.size() < most_waiting; });
         if (failure_) std::rethrow_exception(failure_);
     }
-    BlockCopy copy(block);  // the room is still there: only this thread takes it
+    KeptBlock copy = kept(block);  // the room is still there: only this thread takes it
     {
         std::lock_guard const lock(mutex_);
         if (failure_) std::rethrow_exception(failure_);
@@ -128,12 +138,12 @@ void ShardWriter::put_all() {
 }
 
 void ShardWriter::put_next(std::unique_lock<std::mutex>& lock) {
-    std::optional<BlockCopy> block(std::move(waiting_.front()));
+    KeptBlock block = std::move(waiting_.front());
     waiting_.pop_front();
     changed_.notify_all();
     lock.unlock();
-    ShardImage const image = form_(block->view());
-    block.reset();
+    ShardImage const image = form_(block());
+    block = {};
     if (!image.members.empty()) store_.put(image.members, image.bytes);
     lock.lock();
 }

@@ -9,7 +9,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -18,7 +17,6 @@
 #include "host/base/durable_file.hpp"
 #include "host/run/block_buffers.hpp"
 #include "host/store/shard_folder.hpp"
-#include "host/store/shard_image.hpp"
 
 namespace slideway {
 
@@ -51,38 +49,14 @@ private:
     std::vector<std::vector<Shard>> generations_;  // those that this store has put and not joined
 };
 
-/// A block's results that outlive the buffers they came from.
-class BlockCopy {
-public:
-    explicit BlockCopy(BlockResult const& block)
-        : members_(of(block.members)),
-          inputs_(of(block.inputs)),
-          records_(of(block.records)),
-          final_states_(of(block.final_states)),
-          quantities_(of(block.quantities)),
-          series_(of(block.series)),
-          sections_(of(block.sections)),
-          growths_(of(block.growths)) {}
-
-    /// Of the copy; it must outlive what it gives.
-    BlockResult view() const {
-        return {members_, inputs_, records_, final_states_, quantities_, series_, sections_, growths_};
-    }
-
-private:
-    template <class T> static std::vector<T> of(std::span<T const> values) { return {values.begin(), values.end()}; }
-
-    std::vector<std::uint64_t> members_;
-    std::vector<Inputs> inputs_;
-    std::vector<MemberRecord> records_;
-    std::vector<double> final_states_, quantities_, series_, sections_, growths_;
-};
+/// A block's results that outlive the buffers they came from; what it gives lives as long as it is.
+using KeptBlock = std::function<BlockResult()>;
 
 /// A run that may end before it needs a shard: of one block that is there within `longest`.
 struct ShortRun {
     static constexpr std::chrono::milliseconds longest{1000};  // of computing is lost with the process
-    std::function<void()> claim;     // the folder, before the first shard; called once, by the writer's thread
-    std::optional<BlockCopy> block;  // of a run that came to none
+    std::function<void()> claim;  // the folder, before the first shard; called once, by the writer's thread
+    KeptBlock block;              // of a run that came to none
 };
 
 /// A thread of its own makes the images of blocks and waits for the disk; computing waits only where that is slower.
@@ -115,7 +89,7 @@ private:
     ShardStore store_;      // the thread's
     ShortRun* const brief_;
     std::mutex mutex_;  // guards what follows
-    std::deque<BlockCopy> waiting_;
+    std::deque<KeptBlock> waiting_;
     bool ended_ = false, whole_ = false;
     std::exception_ptr failure_;
     std::condition_variable changed_;

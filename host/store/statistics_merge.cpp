@@ -1,9 +1,12 @@
 #include "host/store/statistics_merge.hpp"
 
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "host/base/bytes.hpp"
 
 namespace slideway {
 namespace {
@@ -36,12 +39,13 @@ void add_failed(ResultColumns& list, BlockStatistics const& statistics) {
 
 ResultColumns statistics_columns(BlockStatistics const& statistics, ResultLayout const& layout) {
     ResultColumns list;
-    std::vector<char const*> units;
+    std::vector<char const*> names, units;
     for (OutputQuantity const& quantity : selected(outputs_of(layout.mechanism).quantities, layout.quantities)) {
+        names.push_back(quantity.name);
         units.push_back(quantity.unit);
         if (quantity.dimension != nullptr) list.add_labels_of(quantity.dimension);
     }
-    list.attributes = quantity_names(layout.mechanism, layout.quantities);
+    if (!names.empty()) list.attributes.push_back({"quantities", fmt::format("{}", fmt::join(names, " "))});
     list.attributes.push_back({"store", "statistics"});
     list.attributes.push_back({"members", layout.members.text()});
     list.attributes.push_back({"quantity_units", fmt::format("{}", fmt::join(units, ", "))});
@@ -54,6 +58,45 @@ ResultColumns statistics_columns(BlockStatistics const& statistics, ResultLayout
 }
 
 }  // namespace
+
+std::vector<std::byte> statistics_shard(Maker const& maker, BlockStatistics const& statistics) {
+    ByteWriter out;
+    for (std::string const* const text : {&maker.backend, &maker.isa, &maker.flags}) out.put(std::string_view(*text));
+    out.put(static_cast<std::uint64_t>(maker.threads));
+    out.put(statistics.bytes());
+    return out.take();
+}
+
+BlockStatistics parse_statistics(std::span<std::byte const> bytes, std::string const& name, Maker* maker) {
+    ByteReader in(bytes, name);
+    Maker found;
+    for (std::string* const text : {&found.backend, &found.isa, &found.flags}) *text = in.text();
+    found.threads = static_cast<int>(in.word());
+    auto const statistics = in.block();
+    in.end();
+    if (maker != nullptr) *maker = std::move(found);
+    return BlockStatistics::parse(statistics, name);
+}
+
+ShardImage statistics_image(StatisticsPlan const& plan, Maker const& maker, BlockResult const& block) {
+    BlockStatistics statistics(plan);
+    statistics.add(block, plan);
+    if (statistics.members().empty()) return {};
+    return {statistics.members(), statistics_shard(maker, statistics)};
+}
+
+std::vector<std::byte> joined_statistics(std::string const& folder, std::span<Shard const> shards) {
+    Maker maker;
+    std::optional<BlockStatistics> joined;
+    for (Shard const& shard : shards) {
+        BlockStatistics next = parse_statistics(read_shard(folder, shard), shard.name, joined ? nullptr : &maker);
+        if (joined)
+            joined->merge(next);
+        else
+            joined = std::move(next);
+    }
+    return joined ? statistics_shard(maker, *joined) : std::vector<std::byte>();
+}
 
 void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge const& merge) {
     put_attributes(file, DataFile::global, attributes_of(merge.provenance));

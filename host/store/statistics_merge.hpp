@@ -1,14 +1,26 @@
-// Shards of statistics to one result file.
+// Statistics of blocks as shards, and these to one result file.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "host/store/block_statistics.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
-#include "host/store/shard_image.hpp"
 
 namespace slideway {
+
+/// Statistics and who made them, and back.  @param name of what the bytes are from, for messages.  @throws FileError
+std::vector<std::byte> statistics_shard(Maker const& maker, BlockStatistics const& statistics);
+BlockStatistics parse_statistics(std::span<std::byte const> bytes, std::string const& name, Maker* maker = nullptr);
+
+/// The statistics of those members of a block that have ended.
+ShardImage statistics_image(StatisticsPlan const& plan, Maker const& maker, BlockResult const& block);
+
+/// One shard for several, of the origin of the first.  One of them at a time is in memory.  @throws FileError
+std::vector<std::byte> joined_statistics(std::string const& folder, std::span<Shard const> shards);
 
 /// Writes a result file without members, as `merge_shards` one with.  Its attribute `store` is "statistics", and
 /// `members` the numbers of those of the run, `quantities` the names of what the statistics are of.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -15,21 +16,10 @@
 namespace slideway {
 namespace {
 
-/// An object of HDF5 that is closed whatever happens.
-class Handle {
-public:
-    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-    ~Handle() {
-        if (id_ >= 0) close_(id_);
-    }
-    Handle(Handle const&) = delete;
-    Handle& operator=(Handle const&) = delete;
-    hid_t get() const { return id_; }
-
-private:
-    hid_t id_;
-    herr_t (*close_)(hid_t);
-};
+/// Closes an object of HDF5 whatever happens; of one that did not open nothing.
+template <herr_t (*close)(hid_t)> auto closing(hid_t const& id) {
+    return std::unique_ptr<hid_t const, void (*)(hid_t const*)>(id >= 0 ? &id : nullptr, [](hid_t const* one) { close(*one); });
+}
 
 /// Attributes with which netCDF-4 keeps its data model in HDF5, and shows to nobody.
 constexpr char const* reserved[] = {"CLASS",          "NAME",                "DIMENSION_LIST", "REFERENCE_LIST", "DIMENSION_LABELS",
@@ -67,88 +57,71 @@ std::vector<std::string> attributes_of(hid_t object) {
     });
 }
 
+/// What HDF5 has beyond the attributes of netCDF-4, in words.
+void list_below(std::string const& path, std::map<std::string, std::set<std::string>> const& attributes, std::vector<std::string>& found) {
+    hid_t const file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    auto const closing_file = closing<H5Fclose>(file);
+    if (file < 0) throw FileError(path + ": cannot open: HDF5 does not open it twice");
+    for (std::string const& link : links_of(file)) {
+        if (!attributes.contains(without_prefix(link))) found.push_back("object " + link);
+    }
+    for (auto const& [name, known] : attributes) {
+        hid_t const object = H5Oopen(file, name.c_str(), H5P_DEFAULT);
+        auto const closing_object = closing<H5Oclose>(object);
+        if (object < 0) continue;  // "_nc4_non_coord_": of its dimension's name there is none
+        for (std::string const& attribute : attributes_of(object)) {
+            if (known.contains(attribute) || std::ranges::count(reserved, std::string_view(attribute)) > 0) continue;
+            found.push_back(name == "." ? "attribute " + attribute : fmt::format("attribute of {}: {}", name, attribute));
+        }
+    }
+}
+
 }  // namespace
 
-/// Walks through the groups of a file.
-class UncoveredContent {
-public:
-    void look_at(NetcdfFile const& group, std::string const& prefix) {
-        look_at_types(group, prefix);
-        std::set<std::string>& own = attributes_[prefix.empty() ? std::string(".") : prefix.substr(0, prefix.size() - 1)];
-        look_at_attributes(group, NC_GLOBAL, "", own);
-        look_at_variables(group, prefix);
-        for (DataFile::Dimension const& dimension : group.dimensions()) attributes_.try_emplace(prefix + dimension.name);
-        for (std::string const& name : group.groups()) look_at(group.inner(name), prefix + name + "/");
-    }
-
-    /// What HDF5 has beyond all that.
-    void look_below(std::string const& path) {
-        Handle const file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-        if (file.get() < 0) throw FileError(path + ": cannot open: HDF5 does not open it twice");
-        for (std::string const& link : links_of(file.get())) {
-            if (!attributes_.contains(without_prefix(link))) found_.push_back("object " + link);
-        }
-        for (auto const& [name, known] : attributes_) {
-            Handle const object(H5Oopen(file.get(), name.c_str(), H5P_DEFAULT), H5Oclose);
-            if (object.get() < 0) continue;  // "_nc4_non_coord_": of its dimension's name there is none
-            for (std::string const& attribute : attributes_of(object.get())) {
-                if (known.contains(attribute) || std::ranges::count(reserved, std::string_view(attribute)) > 0) continue;
-                found_.push_back(name == "." ? "attribute " + attribute : fmt::format("attribute of {}: {}", name, attribute));
-            }
-        }
-    }
-
-    std::vector<std::string> take() { return std::move(found_); }
-
-private:
-    void look_at_types(NetcdfFile const& group, std::string const& prefix) {
-        int count = 0;
-        group.require(nc_inq_typeids(group.id_, &count, nullptr), "read the header");
-        std::vector<int> ids(static_cast<std::size_t>(count));
-        group.require(nc_inq_typeids(group.id_, &count, ids.data()), "read the header");
-        for (int const id : ids) {
-            attributes_.try_emplace(prefix + name_of_type(group, id));
-            found_.push_back("type " + prefix + name_of_type(group, id));
-        }
-    }
-
-    void look_at_variables(NetcdfFile const& group, std::string const& prefix) {
-        int count = 0;
-        group.require(nc_inq_nvars(group.id_, &count), "read the header");
-        for (int i = 0; i < count; ++i) {
-            nc_type type = NC_NAT;
-            char own[NC_MAX_NAME + 1];
-            group.require(nc_inq_var(group.id_, i, own, &type, nullptr, nullptr, nullptr), "read the header");
-            std::string const name = prefix + own;
-            if (!NetcdfFile::stores(type)) found_.push_back(fmt::format("variable {} of type {}", name, name_of_type(group, type)));
-            look_at_attributes(group, i, name, attributes_[name]);
-        }
-    }
-
-    void look_at_attributes(NetcdfFile const& group, int variable, std::string const& of, std::set<std::string>& names) {
-        for (std::string const& name : group.attribute_names(variable)) {
+void NetcdfFile::list_content(std::string const& prefix, std::map<std::string, std::set<std::string>>& attributes, std::vector<std::string>& foreign) const {
+    constexpr char const* of_header = "read the header";
+    auto const name_of_type = [&](int type) {
+        char name[NC_MAX_NAME + 1];
+        require(nc_inq_type(id_, type, name, nullptr), of_header);
+        return std::string(name);
+    };
+    auto const list_attributes = [&](int variable, std::string const& path, std::string const& what) {
+        std::set<std::string>& names = attributes[path];
+        for (std::string const& name : attribute_names(variable)) {
             names.insert(name);
             nc_type type = NC_NAT;
-            group.require(nc_inq_atttype(group.id_, variable, name.c_str(), &type), "read attribute " + name);
-            if (type > NC_MAX_ATOMIC_TYPE) found_.push_back(of.empty() ? "attribute " + name : fmt::format("attribute of {}: {}", of, name));
+            require(nc_inq_atttype(id_, variable, name.c_str(), &type), "read attribute " + name);
+            if (type > NC_MAX_ATOMIC_TYPE) foreign.push_back(what + name);
         }
+    };
+    int count = 0;
+    require(nc_inq_typeids(id_, &count, nullptr), of_header);
+    std::vector<int> types(static_cast<std::size_t>(count));
+    require(nc_inq_typeids(id_, &count, types.data()), of_header);
+    for (int const type : types) {
+        attributes.try_emplace(prefix + name_of_type(type));
+        foreign.push_back("type " + prefix + name_of_type(type));
     }
-
-    static std::string name_of_type(NetcdfFile const& group, int type) {
-        char name[NC_MAX_NAME + 1];
-        group.require(nc_inq_type(group.id_, type, name, nullptr), "read the header");
-        return name;
+    list_attributes(global, prefix.empty() ? "." : prefix.substr(0, prefix.size() - 1), "attribute ");
+    require(nc_inq_nvars(id_, &count), of_header);
+    for (int i = 0; i < count; ++i) {
+        nc_type type = NC_NAT;
+        char own[NC_MAX_NAME + 1];
+        require(nc_inq_var(id_, i, own, &type, nullptr, nullptr, nullptr), of_header);
+        std::string const name = prefix + own;
+        if (!stores(type)) foreign.push_back(fmt::format("variable {} of type {}", name, name_of_type(type)));
+        list_attributes(i, name, fmt::format("attribute of {}: ", name));
     }
-
-    std::vector<std::string> found_;
-    std::map<std::string, std::set<std::string>> attributes_;  // of netCDF-4, by the path of what has them
-};
+    for (Dimension const& dimension : dimensions()) attributes.try_emplace(prefix + dimension.name);
+    for (std::string const& name : groups()) inner(name).list_content(prefix + name + "/", attributes, foreign);
+}
 
 std::vector<std::string> uncovered(NetcdfFile const& file) {
-    UncoveredContent content;
-    content.look_at(file, "");
-    if (file.is_on_disk()) content.look_below(file.path());
-    return content.take();
+    std::map<std::string, std::set<std::string>> attributes;
+    std::vector<std::string> found;
+    file.list_content("", attributes, found);
+    if (file.is_on_disk()) list_below(file.path(), attributes, found);
+    return found;
 }
 
 }  // namespace slideway

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "host/store/result_merge.hpp"
-#include "host/store/shard_image.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"

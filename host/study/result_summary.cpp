@@ -8,7 +8,6 @@
 #include "host/base/error.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/statistics_merge.hpp"
-#include "host/store/stored_quantities.hpp"
 
 namespace slideway {
 namespace {

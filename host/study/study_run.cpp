@@ -13,7 +13,6 @@
 #include "host/store/finished_result.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
-#include "host/store/shard_image.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
@@ -44,14 +43,14 @@ void remove_shards_of_finished(std::string const& result, std::string const& fol
 }
 
 /// The table of members, so that the folder of shards is all that a merge needs.
-std::optional<ShardClaim::TableCopy> table_copy_of(Scene const& scene) {
+std::optional<std::vector<std::byte>> bytes_of_table(Scene const& scene) {
     if (scene.design.table == nullptr) return {};
     MemberTable const& table = *scene.design.table;
     std::vector<std::byte> bytes = read_bytes(table.path);
     if (fnv1a(bytes) != table.checksum) {
         throw FileError(fmt::format("{}: has changed since it was read; start the run again", table.path));
     }
-    return ShardClaim::TableCopy{std::string(shard_names::table), std::move(bytes)};
+    return bytes;
 }
 
 OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
@@ -136,7 +135,7 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
         }
     }
     if (options.force && !options.resume && !options.part.of_array && target_.replaces()) remove_shards_of_finished(target_.path(), folder);
-    ShardClaim::Wanted const wanted{identity, mine_, options.part.name(), options.resume, table_copy_of(scene)};
+    ShardClaim::Wanted const wanted{identity, mine_, options.part.name(), options.resume, bytes_of_table(scene)};
     brief_.claim = [this, wanted] { claim(wanted); };
     if (may_be_short())
         work_ = {mine_, 0, &brief_};
@@ -212,7 +211,7 @@ void StudyRun::merge_all(StopRequest const& stop, std::optional<ToleranceReport>
         merge_study(scene_, folder, folder.listed(), origin, target_, report, settings, check);
         return;
     }
-    merge_shards({memory_shard(options_.output, result_layout(scene_, members_), brief_.block->view())},
+    merge_shards({memory_shard(options_.output, result_layout(scene_, members_), brief_.block())},
                  study_merge(scene_, members_, 0, origin, target_, report, settings, check), target_.path());
 }
 

@@ -4,8 +4,8 @@
 
 #include "host/config/descriptors.hpp"
 #include "host/run/rank_messages.hpp"
-#include "host/store/shard_image.hpp"
 #include "host/store/shard_writer.hpp"
+#include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"
@@ -94,9 +94,9 @@ void put_into_shards(Scene const& scene, StudyOptions const& options, ShortRun& 
     if (!brief.block) return;
     brief.claim();
     auto const writer = shard_writer(scene, options);
-    writer->write(brief.block->view());
+    writer->write(brief.block());
     writer->finish();
-    brief.block.reset();
+    brief.block = {};
 }
 
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,

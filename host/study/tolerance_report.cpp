@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/store/result_layout.hpp"
 #include "host/store/statistics_merge.hpp"
-#include "host/store/stored_quantities.hpp"
 #include "host/study/tolerance_members.hpp"
 
 namespace slideway {

@@ -1,7 +1,6 @@
 // A verification in a result file.
 #include <algorithm>
 #include <map>
-#include <string_view>
 
 #include "host/base/numbers.hpp"
 #include "host/store/column.hpp"
@@ -11,7 +10,31 @@
 namespace slideway {
 namespace {
 
-constexpr char const* sign_refuted = "refuted";
+constexpr char const *sign_refuted = "refuted", *verdict_name = "verdict";
+
+/// A number of each that was checked, along `members_of` and `checked`.
+struct StoredNumber {
+    char const *name, *unit, *meaning;
+    double (*of)(CheckedNumber const& n);
+    double StoredVerdict::*into;  // what is read back; nullptr: nothing, or the verdict
+};
+constexpr StoredNumber number_table[] = {
+    {"number", "", "what the study says, in the unit of checked_name", [](CheckedNumber const& n) { return n.value; }, &StoredVerdict::value},
+    {"number_half_width", "", "half the 95 % interval of it", [](CheckedNumber const& n) { return n.half_width; }, &StoredVerdict::half_width},
+    {"number_sd", "", "standard deviation of its members", [](CheckedNumber const& n) { return n.spread; }, &StoredVerdict::sd},
+    {"difference", "", "mean over the pairs, check less study; of one method where that is larger",
+     [](CheckedNumber const& n) { return n.error.difference; }, &StoredVerdict::difference},
+    {"difference_half_width", "", "half the 95 % interval of the difference", [](CheckedNumber const& n) { return n.error.half_width; }, nullptr},
+    {"error_bound", "", "bound of the integration error", [](CheckedNumber const& n) { return n.error.bound; }, &StoredVerdict::error_bound},
+    {"margin", "", "errors below it do not count", [](CheckedNumber const& n) { return n.margin; }, &StoredVerdict::margin},
+    {"p_value", "1", "chance of such a difference if there were none, adjusted for all that was looked at",
+     [](CheckedNumber const& n) { return n.p; }, nullptr},
+    {"pairs", "1", "members that ran again and came to their end", [](CheckedNumber const& n) { return static_cast<double>(n.error.pairs); },
+     &StoredVerdict::pairs},
+    {"cut", "1", "members that ran again and were cut short", [](CheckedNumber const& n) { return static_cast<double>(n.cut); }, &StoredVerdict::cut},
+    {verdict_name, "1", "0 resolved, 1 error bounded, 2 undecided, 3 not resolved",
+     [](CheckedNumber const& n) { return static_cast<double>(n.verdict); }, nullptr},
+};
 
 /// Members that ran again: what they had come to, and what they came to then.
 void write_pairs(DataFile& group, Verification const& v) {
@@ -45,28 +68,11 @@ void write_numbers(DataFile& group, Verification const& v) {
     for (MemberGroup const& one : v.groups) groups.push_back(one.name.empty() ? "all members" : one.name);
     put_labels(group, "checked", "number that is checked, with its unit", columns);
     put_labels(group, "members_of", "members that a number is of", groups);
-    auto const put = [&](std::string const& name, std::string const& unit, std::string const& meaning,
-                         auto const& value) {
+    for (StoredNumber const& one : number_table) {
         std::vector<double> values(v.numbers.size());
-        for (CheckedNumber const& n : v.numbers)
-            values[n.group * v.study.columns.size() + n.column] = static_cast<double>(value(n));
-        slideway::put(group, {name, unit, meaning, {"members_of", "checked"}, "members_of_name checked_name"}, values);
-    };
-    put("number", "", "what the study says, in the unit of checked_name", [](auto const& n) { return n.value; });
-    put("number_half_width", "", "half the 95 % interval of it", [](auto const& n) { return n.half_width; });
-    put("number_sd", "", "standard deviation of its members", [](auto const& n) { return n.spread; });
-    put("difference", "", "mean over the pairs, check less study; of one method where that is larger",
-        [](auto const& n) { return n.error.difference; });
-    put("difference_half_width", "", "half the 95 % interval of the difference",
-        [](auto const& n) { return n.error.half_width; });
-    put("error_bound", "", "bound of the integration error", [](auto const& n) { return n.error.bound; });
-    put("margin", "", "errors below it do not count", [](auto const& n) { return n.margin; });
-    put("p_value", "1", "chance of such a difference if there were none, adjusted for all that was looked at",
-        [](auto const& n) { return n.p; });
-    put("pairs", "1", "members that ran again and came to their end", [](auto const& n) { return n.error.pairs; });
-    put("cut", "1", "members that ran again and were cut short", [](auto const& n) { return n.cut; });
-    put("verdict", "1", "0 resolved, 1 error bounded, 2 undecided, 3 not resolved",
-        [](auto const& n) { return static_cast<int>(n.verdict); });
+        for (CheckedNumber const& n : v.numbers) values[n.group * v.study.columns.size() + n.column] = one.of(n);
+        put(group, {one.name, one.unit, one.meaning, {"members_of", "checked"}, "members_of_name checked_name"}, values);
+    }
 }
 
 }  // namespace
@@ -101,42 +107,27 @@ std::vector<StoredVerdict> stored_verdicts(ResultView const& results) {
     std::map<std::string, DataFile::Variable> variables;
     for (DataFile::Variable& variable : group->variables()) variables.emplace(variable.name, variable);
     auto const texts = [&](char const* name) {
-        std::vector<std::string> found;
         auto const at = variables.find(name);
-        if (at == variables.end() || at->second.shape.size() != 2) return found;
-        std::vector<signed char> const bytes = group->read<signed char>(at->second);
-        std::size_t const width = at->second.shape[1];
-        for (std::size_t i = 0; i < at->second.shape[0]; ++i) {
-            std::string const padded(bytes.begin() + static_cast<std::ptrdiff_t>(i * width),
-                                     bytes.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
-            found.push_back(padded.substr(0, padded.find_last_not_of(std::string_view(" \0", 2)) + 1));
-        }
-        return found;
+        return at == variables.end() ? std::vector<std::string>() : read_texts(*group, at->second);
     };
     std::vector<std::string> const names = texts("checked_name"), groups = texts("members_of_name");
     std::vector<StoredVerdict> verdicts(names.size() * groups.size());
     for (std::size_t i = 0; i < verdicts.size(); ++i)
         verdicts[i] = {names[i % names.size()], groups[i / names.size()], nan, nan, nan, nan, nan, nan, nan, nan, {}};
-    auto const put = [&](char const* name, auto const& into) {
-        auto const at = variables.find(name);
-        if (at == variables.end() || at->second.type != DataFile::Type::float64 || at->second.size() != verdicts.size())
-            return false;
+    for (StoredNumber const& one : number_table) {
+        bool const is_verdict = one.name == verdict_name;
+        if (one.into == nullptr && !is_verdict) continue;
+        auto const at = variables.find(one.name);
+        if (at == variables.end() || at->second.type != DataFile::Type::float64 || at->second.size() != verdicts.size()) return {};
         std::vector<double> const values = group->read<double>(at->second);
-        for (std::size_t i = 0; i < values.size(); ++i) into(verdicts[i], values[i]);
-        return true;
-    };
-    bool const whole = put("number", [](auto& v, double x) { v.value = x; }) &&
-                       put("number_half_width", [](auto& v, double x) { v.half_width = x; }) &&
-                       put("number_sd", [](auto& v, double x) { v.sd = x; }) &&
-                       put("difference", [](auto& v, double x) { v.difference = x; }) &&
-                       put("error_bound", [](auto& v, double x) { v.error_bound = x; }) &&
-                       put("margin", [](auto& v, double x) { v.margin = x; }) &&
-                       put("pairs", [](auto& v, double x) { v.pairs = x; }) &&
-                       put("cut", [](auto& v, double x) { v.cut = x; }) && put("verdict", [](auto& v, double x) {
-                           v.verdict =
-                               static_cast<Verdict>(x >= 0 && x < std::size(verdict_names) ? static_cast<int>(x) : 2);
-                       });
-    return whole ? verdicts : std::vector<StoredVerdict>{};
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (is_verdict)
+                verdicts[i].verdict = static_cast<Verdict>(values[i] >= 0 && values[i] < std::size(verdict_names) ? static_cast<int>(values[i]) : 2);
+            else
+                verdicts[i].*one.into = values[i];
+        }
+    }
+    return verdicts;
 }
 
 bool refutes_sign(ResultView const& results) {

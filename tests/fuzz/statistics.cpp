@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/store/shard_image.hpp"
+#include "host/store/statistics_merge.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace slideway::fuzz {

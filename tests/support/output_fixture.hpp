@@ -15,7 +15,6 @@
 
 #include "host/store/result_merge.hpp"
 #include "host/store/shard_folder.hpp"
-#include "host/store/shard_image.hpp"
 #include "host/store/shard_writer.hpp"
 
 namespace slideway::testing {

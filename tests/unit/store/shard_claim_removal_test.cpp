@@ -195,7 +195,7 @@ TEST_F(Removal, EmptiesTheFolderBehindALinkAndLeavesBoth) {
 
 TEST_F(Removal, TakesTheCopyOfTheTableAlong) {
     ShardClaim::Wanted with_table = wanted();
-    with_table.table_copy = ShardClaim::TableCopy{"table.csv", std::vector<std::byte>(3, std::byte{'1'})};
+    with_table.table = std::vector<std::byte>(3, std::byte{'1'});
     {
         ShardClaim const claim(shards_, with_table);
         EXPECT_EQ(testing::bytes_of(file("table.csv")), "111");
