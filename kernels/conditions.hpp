@@ -18,6 +18,7 @@ template <class Laws> struct Conditions {
     bool free_crank = false;
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
     bool by_clocks = false;      // and go by the clocks of impacts
+    LoadList loads;
     bool powers_alone = false;    // reports tell the powers of the energy audit, and nothing else
 
     constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)
@@ -27,7 +28,8 @@ template <class Laws> struct Conditions {
           switches(law_switches),
           remembers(remembers_of(parts)),
           continuous(of_law.continuous() && !remembers),
-          free_crank(parts.free_crank) {}
+          free_crank(parts.free_crank),
+          loads(parts.loads) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.
     static constexpr bool remembers_of(Parts const& parts) {

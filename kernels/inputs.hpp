@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernels/key.hpp"
+#include "kernels/loads/load_list.hpp"
 
 namespace slideway {
 
@@ -31,6 +32,7 @@ struct Parts {
     Mechanism mechanism{};
     bool free_crank = false;  // of planar_slider_crank: no drive holds the crank's speed
     bool rigid = false;       // contacts have no law: kernels/rigid
+    LoadList loads;           // beside weight, contact and drive
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 
@@ -110,7 +112,8 @@ struct Parts {
     row(vx, "initial.vx", 0, "m/s", any, along, "velocity along the way at the start")
 // clang-format on
 
-// Numbers of their own that a law and a mechanism may have, under the keys that their info names: law_a … law_p, mechanism_a … mechanism_p.
+// Numbers of their own that a law and a mechanism may have, under the keys that their info names: law_a … law_p, mechanism_a … mechanism_p.  And
+// those of the scene's loads: load_a … load_p.
 #define SLIDEWAY_OWN_NUMBERS(row) row(a) row(b) row(c) row(d) row(e) row(f) row(g) row(h) row(i) row(j) row(k) row(l) row(m) row(n) row(o) row(p)
 
 struct Inputs {
@@ -118,7 +121,7 @@ struct Inputs {
     SLIDEWAY_INPUTS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
     // 0 where there are fewer.
-#define SLIDEWAY_MEMBER(letter) double law_##letter = 0, mechanism_##letter = 0;
+#define SLIDEWAY_MEMBER(letter) double law_##letter = 0, mechanism_##letter = 0, load_##letter = 0;
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
 };
@@ -147,6 +150,12 @@ inline constexpr double Inputs::*mechanism_inputs[] = {
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
 #undef SLIDEWAY_PLACE
 };
+inline constexpr double Inputs::*load_inputs[] = {
+#define SLIDEWAY_PLACE(letter) &Inputs::load_##letter,
+    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
+#undef SLIDEWAY_PLACE
+};
+static_assert(sizeof(load_inputs) / sizeof(load_inputs[0]) == most_load_numbers);
 inline constexpr int most_own_numbers = sizeof(law_inputs) / sizeof(law_inputs[0]);
 
 }  // namespace slideway

@@ -38,6 +38,7 @@ enum class KeyGroup {
     restitution,    // a coefficient of restitution in place of η and χ
     law,            // what a contact law has of its own
     mechanism,      // what a mechanism has of its own
+    load,           // what a scene's loads are
     smooth_friction,  // speeds over which friction rises and falls; rigid contacts have none
 };
 using KeyGroups = unsigned;

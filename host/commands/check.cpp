@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +8,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
+#include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/study/continued_sweep.hpp"
@@ -35,6 +37,18 @@ std::string damping_text(Parts const& parts) {
     return "";
 }
 
+/// "loads plunger (indicator.csv over crank_angle), brake".
+std::string loads_text(SceneLoads const& loads) {
+    std::string text = "loads";
+    for (std::size_t i = 0; i < loads.rows().size(); ++i) {
+        auto const& [name, table] = loads.rows()[i];
+        text += fmt::format("{} {}", i == 0 ? "" : ",", name);
+        if (table.function == nullptr) continue;
+        text += fmt::format(" ({} over {})", std::filesystem::path(table.path).filename().string(), load_arguments[static_cast<int>(loads.load(i).over) - 1]);
+    }
+    return text;
+}
+
 void print_parts(Scene const& scene) {
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     std::vector<std::string> in{fmt::format("{} mechanism", mechanism.name)}, out;
@@ -56,6 +70,7 @@ void print_parts(Scene const& scene) {
     sort_out(Damping::restitution, "restitution");
     sort(scene.parts.friction, "friction");
     if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
+    if (scene.loads != nullptr) sort(true, loads_text(*scene.loads));
     sort(!scene.sample_times.empty(), "time series");
     print_field("parts in", fmt::format("{}", fmt::join(in, "; ")));
     print_field("parts out", out.empty() ? "none" : fmt::format("{}", fmt::join(out, "; ")));

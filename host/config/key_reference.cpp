@@ -171,10 +171,17 @@ std::string scene_schema(Settings keys) {
             properties[std::string(key.name)] = std::move(value);
             continue;
         }
-        Json& table = properties[std::string(key.table())];
-        table["type"] = "object";
-        table["additionalProperties"] = false;
-        table["properties"][std::string(key.key())] = std::move(value);
+        Json* table = &properties[std::string(key.table())];
+        (*table)["type"] = "object";
+        std::string_view name = key.key();
+        // Tables of any name, each with these keys.
+        if (auto const dot = name.find(".", name.starts_with('<') ? 0 : name.npos); dot != name.npos) {
+            table = &(*table)["additionalProperties"];
+            (*table)["type"] = "object";
+            name.remove_prefix(dot + 1);
+        }
+        (*table)["additionalProperties"] = false;
+        (*table)["properties"][std::string(name)] = std::move(value);
     }
     Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                 {"title", "Scene of slideway"},

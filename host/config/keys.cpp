@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
 #include "host/config/units.hpp"
@@ -79,6 +80,7 @@ std::vector<Key const*> make_every_key() {
         if (key.member != &Inputs::restitution) continue;  // the last of contacts
         for (LawInfo const& law : laws()) add(law.keys);
     }
+    for (Key const* const key : known_load_keys()) keys.push_back(key);
     for (Key const& key : double_keys) keys.push_back(&key);
     return keys;
 }
@@ -141,6 +143,7 @@ std::vector<std::string_view> numeric_key_names() {
 
 bool counts_for(Key const& key, Mechanism mechanism) {
     MechanismInfo const& of = info(mechanism);
+    if (key.group == KeyGroup::load) return true;
     if (key.group == KeyGroup::mechanism) return std::ranges::find(of.own_keys, key.name, &Key::name) != of.own_keys.end();
     bool const of_contacts = key.group == KeyGroup::law || has_group(contact_groups, key.group);
     return has_group(of.keys, key.group) || (of.spatial && of_contacts);
@@ -148,6 +151,7 @@ bool counts_for(Key const& key, Mechanism mechanism) {
 
 bool counts_for(Key const& key, Parts const& parts) {
     if (!counts_for(key, parts.mechanism)) return false;
+    if (key.group == KeyGroup::load) return is_of(key, parts.loads);
     // Rigid contacts stick and slip exactly (docs/model.md 13).
     if (parts.rigid && key.group == KeyGroup::smooth_friction) return false;
     // What gives way under a face.

@@ -39,6 +39,17 @@ struct GivenKey {
 /// In the order in which they take effect: those of the file, then the options.
 std::vector<GivenKey> given_keys(Node const& root);
 
+/// A file that a scene names.
+struct InputFile {
+    std::string path;   // from the root
+    std::string name;   // for messages
+    std::string bytes;
+};
+/// From the scene's folder on, at most 256 MiB.
+InputFile read_file_beside(Node const& node, std::string const& scene);
+
+/// [load.<name>]: Scene::loads, and the keys of their numbers; needs the mechanism.
+void read_loads(Reading& reading);
 /// [modules], and which mechanism and law a scene names: modules that they are of are opened, and their keys are known from here on.
 void read_modules(Reading& reading);
 /// Numeric keys, damping, friction and way pose; everything of Scene::inputs and Scene::parts but [study.vary].

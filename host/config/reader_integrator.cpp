@@ -1,9 +1,12 @@
 // How members are integrated: method, tolerances, and how many steps they take and may take.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
+#include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
@@ -54,6 +57,26 @@ void warn_of_idle_keys(Node const& table, Reading& reading) {
 
 /// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
 /// hopeless and should not hold a lane for minutes.
+/// The longest step that does not leap over what a table has between two rows, but a 4000th of the whole table;
+/// infinite where nothing is known of how fast that passes.
+double step_within_tables(Scene const& scene, double period) {
+    double step = std::numeric_limits<double>::infinity();
+    if (scene.loads == nullptr) return step;
+    Inputs const& in = scene.inputs;
+    for (std::size_t i = 0; i < scene.loads->rows().size(); ++i) {
+        LoadTable const& table = scene.loads->rows()[i].table;
+        if (table.function == nullptr) continue;
+        bool const on_rod = info(scene.parts.mechanism).drive == DriveKind::crank;
+        double const along = on_rod ? 1.5 * in.crank_length * 2 * std::numbers::pi / period : in.carriage_speed;  // about as fast as the slider becomes [m/s]
+        LoadArgument const over = scene.loads->load(i).over;
+        double const rate = over == LoadArgument::time ? 1 : over == LoadArgument::crank_angle ? 2 * std::numbers::pi / period
+                            : over == LoadArgument::x && std::isfinite(period) ? along : 0;
+        // A table of very many rows is smooth between most of them.
+        if (rate > 0) step = std::min(step, std::max(0.5 * table.narrowest, table.span / 4000) / rate);
+    }
+    return step;
+}
+
 std::uint64_t default_max_steps(RunLength const& length, double max_step) {
     constexpr double start = 1e7, per_second = 1e7, largest = most_steps;
     double const steps = start + per_second * length.longest + 2 * (length.longest / max_step + length.stops);
@@ -126,10 +149,12 @@ void read_integrator(Reading& reading) {
     if (scene.parts.rigid) max_step = std::min(50 * longest_step, period / 50);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
     bool const reverses = mechanism.drive == DriveKind::carriage;
+    double const of_tables = step_within_tables(scene, period);
+    max_step = std::min(max_step, of_tables);
     double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;
     if (!reading.given("integrator.max_step")) settings.max_step = std::min(max_step, reversal);
     // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
-    double const stiff_step = reverses ? std::min(10 * settings.max_step, reversal) : 10 * settings.max_step;
+    double const stiff_step = std::min({10 * settings.max_step, reverses ? reversal : 10 * settings.max_step, of_tables});
     if (!reading.given("integrator.stiff_max_step")) settings.stiff_max_step = stiff_step;
     if (Node const* const table = reading.given("integrator")) warn_of_idle_keys(*table, reading);
 }

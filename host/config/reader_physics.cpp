@@ -94,11 +94,13 @@ void read_numbers(Reading& reading) {
 
 std::vector<GivenKey> given_keys(Node const& root) {
     std::vector<GivenKey> given;
-    for (Node const& table : root.children) {
+    auto const add = [&](Node const& table, auto const& add_below) -> void {
         for (Node const& node : table.children) {
             if (Key const* const key = find_key(node.name)) given.push_back({key, &node});
+            else if (table.key == "load") add_below(node, add_below);
         }
-    }
+    };
+    for (Node const& table : root.children) add(table, add);
     std::ranges::stable_sort(given, {}, [](GivenKey const& one) { return one.node->order; });
     return given;
 }
@@ -126,6 +128,7 @@ void read_modules(Reading& reading) {
 
 void read_physics(Reading& reading) {
     read_mechanism(reading);
+    read_loads(reading);
     Scene& scene = reading.scene;
     Parts& parts = scene.parts;
     scene.inputs = with_presets(scene.inputs, parts);

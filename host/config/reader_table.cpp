@@ -28,18 +28,6 @@ struct Column {
     bool has_missing = false;            // in words, such as NA
 };
 
-std::string read_bytes(Node const& node, std::string const& path) {
-    constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
-    InputText input = read_input(path, largest);
-    if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
-    if (input.error != 0) {
-        refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path), input.why()), "check the path, from the scene's folder on"});
-    }
-    return std::move(input.text);
-}
-
 /// A field of the table for messages: `members.csv:3: name is "text" (…); …`.
 Node field_node(CsvReader const& table, std::string name, std::string text) {
     Node node;
@@ -213,18 +201,28 @@ private:
 
 }  // namespace
 
-void read_member_table(Reading& reading, Node const& node) {
-    Scene& scene = reading.scene;
+InputFile read_file_beside(Node const& node, std::string const& scene) {
+    constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
     std::string const& given = read_text_value(node);
     if (given.empty()) refuse(node, {"no file has this name", "write for example \"members.csv\""});
-    auto const path = (std::filesystem::path(scene.path).parent_path() / given).lexically_normal();
-    std::string bytes = read_bytes(node, path.string());
+    auto const path = (std::filesystem::path(scene).parent_path() / given).lexically_normal();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
+    InputText input = read_input(path.string(), largest);
+    if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
+    if (input.error != 0)
+        refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path.string()), input.why()), "check the path, from the scene's folder on"});
+    return {std::filesystem::absolute(path).lexically_normal().string(), shown_briefly(path.string()), std::move(input.text)};
+}
 
+void read_member_table(Reading& reading, Node const& node) {
+    Scene& scene = reading.scene;
+    InputFile file = read_file_beside(node, scene.path);
     auto table = std::make_shared<MemberTable>();
-    table->path = std::filesystem::absolute(path).lexically_normal().string();
-    table->name = shown_briefly(path.string());
-    table->checksum = fnv1a(bytes);
-    std::istringstream in(std::move(bytes));
+    table->path = std::move(file.path);
+    table->name = std::move(file.name);
+    table->checksum = fnv1a(file.bytes);
+    std::istringstream in(std::move(file.bytes));
     CsvReader rows(in, table->name);
     if (!rows.next())
         rows.fail("the table is empty (it needs a header and a row); write keys like joint.clearance above");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
@@ -68,12 +69,35 @@ std::string lines_of(Setting const& row, Scene const& scene) {
                        derivation_of(*row.physics, scene.parts, scene.inputs));
 }
 
+/// [load.name], one after the other.
+std::string loads_text(Scene const& scene) {
+    std::string text;
+    for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->rows().size(); ++i) {
+        auto const& [name, table] = scene.loads->rows()[i];
+        Load load = scene.loads->load(i);
+        bool const on_crank = load.crank_torque != Load::none;
+        text += fmt::format("\n[load.{}]\non = \"{}\"\n", name, load_bodies[on_crank ? 1 : 0]);
+        if (!on_crank) text += fmt::format("frame = \"{}\"\n", load_frames[load.turns_with_slider ? 1 : 0]);
+        for (LoadNumber const& number : load_numbers()) {
+            int const place = number.place(load);
+            if (place != Load::none) text += number_line(number.name, scene.inputs.*load_inputs[place], number.unit);
+        }
+        if (table.function == nullptr) continue;
+        // The checksum tells a changed table from the one that was run.
+        text += fmt::format("table = {}  # {} rows, FNV-1a {:016x}\n", toml_string(table.path), table.rows, table.checksum);
+        text += fmt::format("over = \"{}\"\ncolumn = {}\n", load_arguments[static_cast<int>(load.over) - 1], toml_string(table.column));
+        text += fmt::format("interpolation = \"{}\"\nrepeats = {}\n", interpolation_names[static_cast<int>(table.interpolation)], load.table.repeats);
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string resolved_toml(Scene const& scene, Settings keys) {
     std::string text;
     std::string_view table;
     for (Setting const& row : keys) {
+        if (row.table() == "integrator" && row.table() != table) text += loads_text(scene);
         std::string const lines = lines_of(row, scene);
         if (!lines.empty() && row.table() != table) text += fmt::format("\n[{}]\n", table = row.table());
         text += lines;

@@ -33,6 +33,8 @@ enum class Store { members, statistics };
 inline constexpr std::string_view store_names[] = {"members", "statistics"};
 constexpr std::string_view name_of(Store store) { return store_names[static_cast<int>(store)]; }
 
+class SceneLoads;
+
 /// A length of time: seconds, or revolutions of the member's own crank, periods of what drives it.
 struct Span {
     double value = 0;
@@ -104,6 +106,7 @@ struct Scene {
     std::vector<std::string> modules;  // folders of [modules] search, from the root
     Inputs inputs;  // as given; entries that follow others are NaN
     Parts parts;
+    std::shared_ptr<SceneLoads const> loads;  // those of the parts; none: nullptr
     IntegratorSettings integrator;  // end_time and max_step resolved
     StudyKind study = StudyKind::ensemble;
     ChaosSettings chaos;  // of the studies that ask for it

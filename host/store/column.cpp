@@ -104,7 +104,7 @@ void put_numbers(DataFile& file, int variable, ResultColumns const& list, Result
     if (!count.empty()) start[0] = first, count[0] = numbers.size() / list.width(column);
     if (column.type == DataFile::Type::float64) return file.write(variable, start, count, numbers.data());
     if (column.type == DataFile::Type::int32) return file.write(variable, start, count, stored_as<int>(numbers).data());
-    file.write(variable, start, count, stored_as<signed char>(numbers).data());
+    file.write(variable, start, count, stored_as<char>(numbers).data());
 }
 
 void put_texts(DataFile& file, std::string const& name, std::string const& dimension, std::string const& meaning, std::vector<std::string> const& texts) {

@@ -10,6 +10,7 @@
 #include "host/base/bytes.hpp"
 #include "host/base/durable_file.hpp"
 #include "host/config/document.hpp"
+#include "host/config/loads.hpp"
 #include "host/store/finished_result.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
@@ -110,12 +111,23 @@ Scene scene_of(ShardFolder const& folder) {
         throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there",
                                     in_folder(folder.path(), shard_names::table)));
     }
+    if (scene.loads != nullptr) {
+        for (auto const& [name, table] : scene.loads->rows()) {
+            if (table.function != nullptr && text.find(fmt::format("FNV-1a {:016x}", table.checksum)) == text.npos)
+                throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there", table.path));
+        }
+    }
     return scene;
 }
 
 std::vector<std::string> inputs_of(Scene const& scene) {
     std::vector<std::string> inputs{scene.path};
     if (scene.design.table != nullptr) inputs.push_back(scene.design.table->path);
+    if (scene.loads != nullptr) {
+        for (auto const& [name, table] : scene.loads->rows()) {
+            if (!table.path.empty()) inputs.push_back(table.path);
+        }
+    }
     return inputs;
 }
 

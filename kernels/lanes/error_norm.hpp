@@ -60,13 +60,13 @@ private:
     /// The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
     SLIDEWAY_FN static void add_audit(Pack<Model, Real> const& pack, IntegratorSettings const& settings, StepStart<Model, Real> const& from,
                                       Attempt<Model, Real> const& to, Real const* error, SquaredRatios<Real>& sum) {
-        constexpr int integrals = Pack<Model, Real>::Observer::audit_integrals;
-        if constexpr (integrals > 0) {
+        if constexpr (Pack<Model, Real>::Observer::audit_integrals > 0) {
             if (!from.needs.audit) return;
             auto const& s = pack.state;
             Real const energy = Real(settings.atol) * Model::energy_scale(s.constants.parameters), part(Stepper::stiff ? stiff_audit : 1.0);
-            for (int i = 0; i < integrals; ++i)
-                sum.add(to.step * error[i], part * fma(Real(settings.rtol), abs(s.observation.observer.integral(i)), energy));
+            pack.each_audited([&](int i, int integral) {
+                sum.add(to.step * error[i], part * fma(Real(settings.rtol), abs(s.observation.observer.integral(integral)), energy));
+            });
         }
     }
 

@@ -19,6 +19,8 @@ struct ModelDefaults {
     /// At which events of its contacts steps end, and whether its law switches.
     SLIDEWAY_HD static constexpr Watching watching(bool /*locate_modes*/, bool /*neighbours*/) { return Watching::nothing; }
     SLIDEWAY_HD static constexpr bool switches() { return false; }
+    /// Whether anything acts on it beside weight, contact and drive.
+    SLIDEWAY_HD static constexpr bool has_loads() { return false; }
     /// What steps take as given of the contacts, from here on.
     SLIDEWAY_HD static void hold_contacts(Watching) {}
     /// Components of the state that the drive prescribes, a bit each: neighbours cannot differ in them.

@@ -81,11 +81,11 @@ template <class Model, class Real> struct Pack {
     SLIDEWAY_HD void begin_integrals(StageWeights const& w) {
         each_observed([&](int i) { integral[i] = Real(w.value) * state.observation.integrand[i]; });
         with_accelerations([&](auto& record) { record.begin_step(w.value); });
-        for (int i = 0; i < Observer::audit_integrals; ++i) {
-            Real const value = state.observation.integrand[i];
+        each_audited([&](int i, int place) {
+            Real const value = state.observation.integrand[place];
             audit_error[i] = Real(w.error) * value;
             if (w.coarse_error != 0) coarse_audit_error[i] = Real(w.coarse_error) * value;
-        }
+        });
     }
 
     /// Adds a stage.
@@ -95,10 +95,16 @@ template <class Model, class Real> struct Pack {
         observe(report, values);
         each_observed([&](int i) { integral[i] = fma(Real(w.value), values[i], integral[i]); });
         with_accelerations([&](auto& record) { record.add_stage(w.value, report); });
-        for (int i = 0; i < Observer::audit_integrals; ++i) {
-            audit_error[i] = fma(Real(w.error), values[i], audit_error[i]);
-            if (w.coarse_error != 0) coarse_audit_error[i] = fma(Real(w.coarse_error), values[i], coarse_audit_error[i]);
-        }
+        each_audited([&](int i, int place) {
+            audit_error[i] = fma(Real(w.error), values[place], audit_error[i]);
+            if (w.coarse_error != 0) coarse_audit_error[i] = fma(Real(w.coarse_error), values[place], coarse_audit_error[i]);
+        });
+    }
+
+    /// Has a function see the number of each integral of the energy audit, and its place among all.
+    template <class Function> SLIDEWAY_FN void each_audited(Function const& see) const {
+        for (int i = 0; i < audited_without_loads; ++i) see(i, Observer::first_audited + i);
+        if (Observer::audit_integrals > 0 && needs.loads) see(audited_without_loads, Observer::first_audited + audited_without_loads);
     }
 
     /// What the next step starts from, in the lanes of the mask.
@@ -158,16 +164,18 @@ private:
     }
     /// How many of the observer's integrals are asked for, and their integrands at a report.
     SLIDEWAY_HD int observed() const {
-        return needs.powers_alone ? Observer::powers : Observer::integrals;
+        return !needs.powers_alone ? Observer::integrals : needs.loads ? Observer::powers : powers_without_loads;
     }
-    /// Has a function see the number of each; one of two loops of constant length.
+    /// Has a function see the number of each, in loops of constant length.
     template <class Function> SLIDEWAY_FN void each_observed(Function const& see) const {
-        if (needs.powers_alone) {
-            for (int i = 0; i < Observer::powers; ++i) see(i);
-            return;
-        }
-        for (int i = 0; i < Observer::integrals; ++i) see(i);
+        for (int i = 0; i < powers_without_loads; ++i) see(i);
+        if (Observer::powers > 0 && needs.loads) see(powers_without_loads);
+        if (needs.powers_alone) return;
+        for (int i = Observer::powers; i < Observer::integrals; ++i) see(i);
     }
+    // Of all powers that of the loads is the last.
+    static constexpr int audited_without_loads = Observer::audit_integrals > 0 ? Observer::audit_integrals - 1 : 0;
+    static constexpr int powers_without_loads = Observer::powers > 0 ? Observer::powers - 1 : 0;
     SLIDEWAY_HD void observe(Report const& report, Real* values) const {
         needs.powers_alone ? Observer::powers_of(report, values) : Observer::integrands(report, values);
     }

@@ -15,6 +15,7 @@ struct ReportNeeds {
     bool peaks = false;          // inside of steps too
     bool powers_alone = false;   // which are the energy audit's alone
     bool audit = false;          // the audit's integrals meet the tolerance too
+    bool loads = false;          // there are some, whose work is the last of these integrals
     bool switches = false;       // the law does: the audit keeps books of it
     Watching watching = Watching::nothing;
     bool ends = false;  // at the accepted steps
@@ -33,6 +34,7 @@ struct ReportNeeds {
         needs.stages = Observer::needs_stages(quantities) || Accelerations::needs_stages(quantities);
         needs.peaks = Observer::needs_peaks(quantities) || Accelerations::needs_peaks(quantities);
         needs.audit = Observer::audits(quantities);
+        needs.loads = model.has_loads();
         needs.powers_alone = needs.stages && !needs.accelerations && !Observer::integrates_more(quantities);
         needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
         if (HasClocks<Model> && settings.method == Method::verner65) needs.watching = Watching::clocks;

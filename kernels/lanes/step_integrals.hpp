@@ -43,9 +43,7 @@ public:
             means[i] = numbers_.end[i] * per_time;
         }
         pack.set_means(step > Real(0.0), means);
-        for (int i = 0; i < Pack<Model, Real>::Observer::audit_integrals; ++i) {
-            pack.audit_error[i] = own_per_time * Pair::error_slope(numbers_.k, i);
-        }
+        pack.each_audited([&](int i, int place) { pack.audit_error[i] = own_per_time * Pair::error_slope(numbers_.k, place); });
     }
 
     /// Means over what is left of a step in lanes where it ends early.  @param share of the whole step by its clock

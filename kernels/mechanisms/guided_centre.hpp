@@ -15,7 +15,7 @@ template <class Real> struct GuidedCentre {
     Real slope_y, slope_z;  // κ
     Matrix masses;          // [kg]; xx is 1 where x' is not free
     Matrix inverse;         // [1/kg]; xx is 0 there
-    Vec3<Real> unloaded;    // acceleration under all but contact [m/s²]
+    Vec3<Real> unloaded;    // acceleration under all but contact, with loads once they are taken up [m/s²]
     Real drive_x, drive_y;  // velocity of what drives [m/s]
     Real driven;            // mass on it, the slider's and what moves with it [kg]
 

@@ -2,6 +2,7 @@
 
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/math/vec3.hpp"
+#include "kernels/mechanisms/planar_loads.hpp"
 #include "kernels/mechanisms/planar_parameters.hpp"
 #include "kernels/mechanisms/planar_report.hpp"
 #include "kernels/real.hpp"
@@ -17,11 +18,13 @@ template <class Real> struct PlanarLinks {
     SinCos<Real> crank, rod;
     Real x1, y1, x2, y2;
     Real y, vx, vy;
+    PlanarLoads<Real> loads;
 
-    SLIDEWAY_FN PlanarLinks(Real t, Real const* s, PlanarParameters<Real> const& p, bool free_crank) {
+    SLIDEWAY_FN PlanarLinks(Real t, Real const* s, PlanarParameters<Real> const& p, bool free_crank, LoadList const& list) {
         w1 = free_crank ? s[3] : p.crank_speed;
         w2 = s[4];
-        crank = sincos(free_crank ? s[0] : fma(p.crank_speed, t, p.start_angle));
+        Real const angle = free_crank ? s[0] : fma(p.crank_speed, t, p.start_angle);
+        crank = sincos(angle);
         rod = sincos(s[1]);
         x1 = p.crank_length * crank.cos;
         y1 = p.crank_length * crank.sin;
@@ -30,17 +33,20 @@ template <class Real> struct PlanarLinks {
         y = y1 + y2;
         vx = negated(fma(y1, w1, y2 * w2));
         vy = fma(x1, w1, x2 * w2);
+        loads = PlanarLoads<Real>::none();
+        if (list.count > 0) loads = PlanarLoads<Real>::of(list, {angle, t, x1 + x2, vx}, w1, vy, s[2], s[5], p);
     }
 
-    /// M(θ) θ'' = R: inertia of the links, gravity, and the force on their common end.
-    SLIDEWAY_FN PlanarLinkMotion<Real> accelerations(Real fx, Real fy, PlanarParameters<Real> const& p, bool free_crank) const {
+    /// M(θ) θ'' = R: inertia of the links, gravity, loads, and the force of contacts on their common end.
+    SLIDEWAY_FN PlanarLinkMotion<Real> accelerations(Real of_contact_x, Real of_contact_y, PlanarParameters<Real> const& p, bool free_crank) const {
         Real const zero(0.0), one(1.0);
         Real const cosine = fma(crank.cos, rod.cos, crank.sin * rod.sin);
         Real const sine = fms(crank.sin, rod.cos, crank.cos * rod.sin);
         Real const m12 = p.m12 * cosine, centrifugal = p.m12 * sine;
+        Real const fx = of_contact_x + loads.x, fy = of_contact_y + loads.y;
         Real const pull_1 = fms(p.gravity_y, crank.cos, p.gravity_x * crank.sin);
         Real const pull_2 = fms(p.gravity_y, rod.cos, p.gravity_x * rod.sin);
-        Real const r1 = fma(p.crank_moment, pull_1, fms(x1, fy, y1 * fx)) - centrifugal * (w2 * w2);
+        Real const r1 = fma(p.crank_moment, pull_1, fms(x1, fy, y1 * fx)) - centrifugal * (w2 * w2) + loads.crank_torque;
         Real const r2 = fma(p.rod_moment, pull_2, fms(x2, fy, y2 * fx)) + centrifugal * (w1 * w1);
         if (!free_crank) return {zero, r2 / p.m22, r1, m12};
         Real const scale = one / fms(p.m11, p.m22, m12 * m12);
@@ -84,6 +90,7 @@ template <class Real> struct PlanarLinks {
         Real const drive = free_crank ? zero : fms(motion.m12, motion.a2, motion.r1);
         report.crank_torque = report.drive_torque = drive;  // the crank's weight is in the equations
         report.crank_power = drive * w1;
+        report.load_power = loads.power;
         Real const kinetic = half * fma(p.m11 * w1, w1, fma(p.m22 * w2, w2, p.slider_inertia * w3 * w3));
         Real const height = fma(p.crank_moment, fma(p.gravity_x, crank.cos, p.gravity_y * crank.sin),
                                 p.rod_moment * fma(p.gravity_x, rod.cos, p.gravity_y * rod.sin));

@@ -27,6 +27,7 @@ template <class Real> struct PlanarParameters {
     PointContact<Real> point;
     DampingParameters<Real> damping;
     FrictionParameters<Real> friction;
+    Real load[most_load_numbers];  // numbers of the scene's loads
     Real rate_scale;   // |ω|, at least 1 [1/s]
     Real restitution;  // e
 };
@@ -56,6 +57,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.point = point_contact(in);
     p.damping = {0, 0, restitution_slope(in.restitution), in.restitution};
     p.friction = friction_parameters(in);
+    put_load_numbers(in, p.load);
     p.rate_scale = max(::fabs(in.crank_speed), 1.0);
     p.restitution = in.restitution;
     return p;

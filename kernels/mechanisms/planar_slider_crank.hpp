@@ -25,7 +25,7 @@ struct PlanarSliderCrank : PlanarBase {
     SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, PlanarParameters<Real> const& p,
                                                      Memory<Real> const& memory, Conditions<Laws> const& block,
                                                      Real* rates, PlanarReport<Real>* report) {
-        PlanarLinks<Real> links(t, s, p, block.free_crank);
+        PlanarLinks<Real> links(t, s, p, block.free_crank, block.loads);
         PlanarCorners<Real> corners(links, s, p);
         if constexpr (Full) report->contact.start(corners.depth, corners.rate);
         auto push = corners.push_of_nothing();
@@ -46,7 +46,7 @@ struct PlanarSliderCrank : PlanarBase {
         rates[2] = s[5];
         rates[3] = motion.a1;
         rates[4] = motion.a2;
-        rates[5] = push.torque / p.slider_inertia;
+        rates[5] = (push.torque + links.loads.torque) / p.slider_inertia;
         if constexpr (Full) links.tell(motion, s[5], p, block.free_crank, *report);
         return Faults<Real>::none();
     }

@@ -32,6 +32,7 @@ template <class Real> struct SliderParameters {
     Vec3<Real> inertia;  // I [kg m²]
     Vec3<Real> inverse_inertia;
     JointParameters<Real> joint;
+    Real load[most_load_numbers];  // numbers of the scene's loads
     // energy and torque only
     Real rod_mass;         // m_r [kg]
     Real rod_mass_center;  // f_r
@@ -56,6 +57,14 @@ SLIDEWAY_FN FrictionParameters<double> friction_parameters(Inputs const& in) {
             in.friction_slip_speed,
             pi / (2 * in.friction_stick_speed),
             pi / (in.friction_slip_speed - in.friction_stick_speed)};
+}
+
+/// Inputs::load_a …
+SLIDEWAY_FN void put_load_numbers(Inputs const& in, double (&numbers)[most_load_numbers]) {
+    int i = 0;
+#define SLIDEWAY_NUMBER(letter) numbers[i++] = in.load_##letter;
+    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_NUMBER)
+#undef SLIDEWAY_NUMBER
 }
 
 namespace detail {
@@ -121,6 +130,7 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
 #undef SLIDEWAY_NUMBER
 
     p.joint.friction = friction_parameters(in);
+    put_load_numbers(in, p.load);
 
     p.rod_mass = in.rod_mass;
     p.rod_mass_center = center;

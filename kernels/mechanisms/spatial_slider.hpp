@@ -6,6 +6,7 @@
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
 #include "kernels/mechanisms/slider_linearisation.hpp"
+#include "kernels/mechanisms/slider_loads.hpp"
 #include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/real.hpp"
 
@@ -35,25 +36,8 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, Numbers<Real> const& p,
                                                      ContactMemory<Real> const& memory, Conditions<Laws> const& block,
                                                      Real* rates, SliderReport<Real>* report) {
-        auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> guide(t, s, p, faults);
-        auto turning = SliderTurning<Real>::of(s);
-        auto const& way = p.joint.way;
-        Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
-        auto motion = joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
-        Joint<Real, Laws, Full> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
-        auto wrench = joint.wrench(faults.contact_domain);
-        auto force = to_inertial(block.misaligned_way, wrench.force, way);
-        auto acceleration = guide.accelerations(force, p);
-        rates[0] = velocity.y;
-        rates[1] = velocity.z;
-        rates[2] = acceleration.y;
-        rates[3] = acceleration.z;
-        turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
-        guide.put_rates(acceleration, rates);
-        if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
-        if constexpr (Full) guide.tell({position, velocity, acceleration}, turning, force, p, block.powers_alone, *report);
-        return faults;
+        if (block.loads.count > 0) return loaded_derivative<Full>(t, s, p, memory, block, rates, report);
+        return evaluate<Full, false>(t, s, p, memory, block, rates, report);
     }
 
     /// Linearises it about one state; the same arguments as the derivative.  NaN where that has a fault.
@@ -122,6 +106,45 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     }
 
 private:
+    /// Under loads a function of its own: what a scene does not have is not even a place on the stack.
+    template <bool Full, class Real, class Laws>
+    SLIDEWAY_NOINLINE static Faults<Real> loaded_derivative(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
+                                                            Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
+        return evaluate<Full, true>(t, s, p, memory, block, rates, report);
+    }
+    template <bool Full, bool loaded, class Real, class Laws>
+    SLIDEWAY_FN static Faults<Real> evaluate(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
+                                             Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
+        auto faults = Faults<Real>::none();
+        typename Guide::template At<Real> guide(t, s, p, faults);
+        auto turning = SliderTurning<Real>::of(s);
+        auto const& way = p.joint.way;
+        Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+        auto motion = joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
+        Joint<Real, Laws, Full> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
+        auto wrench = joint.wrench(faults.contact_domain);
+        auto force = to_inertial(block.misaligned_way, wrench.force, way);
+        if constexpr (loaded) {
+            auto const loads = SliderLoads<Real>::of(block.loads, t, position, velocity, turning, p);
+            force = force + loads.force;
+            wrench.torque = wrench.torque + SliderLoads<Real>::along(motion.axes, loads.torque);
+            if constexpr (Full) loads.tell(*report);
+        }
+        auto acceleration = guide.accelerations(force, p);
+        rates[0] = velocity.y;
+        rates[1] = velocity.z;
+        rates[2] = acceleration.y;
+        rates[3] = acceleration.z;
+        turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
+        guide.put_rates(acceleration, rates);
+        if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
+        if constexpr (Full) {
+            guide.tell({position, velocity, acceleration}, turning, force, p, block.powers_alone, *report);
+            if constexpr (loaded) report->take_loads_off_drive();
+        }
+        return faults;
+    }
+
     /// Where the slider is in its joint; without its motion.
     template <class Real>
     SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, bool misaligned) {

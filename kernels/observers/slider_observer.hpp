@@ -19,11 +19,10 @@ public:
     using Report = Report_<Real>;
     using Places = QuantityPlaces<Keeper::mechanism, Report::apices>;
     static constexpr int columns = quantity_columns;  // of a member's row
-    /// Integrands: those of the energy audit, then |crank power| and the springs' power, of which a law that switches keeps books, then
-    /// those of other quantities.
-    static constexpr int integrals = Places::integrals + 2;
-    /// The first of them are the energy audit's.
-    static constexpr int audit_integrals = Places::audit_integrals;
+    /// Integrands: |power| of crank and loads and the springs' power, of which a law that switches keeps books, then those of the energy audit, of which that of loads
+    /// is the last, then those of other quantities.
+    static constexpr int first_audited = 2, audit_integrals = Places::audit_integrals;
+    static constexpr int integrals = Places::integrals + first_audited;
 
     /// What a quantity is the peak, mean or integral of: a line each.
     /// @param state at the accepted steps; AtStage for integrals, which have the report alone
@@ -35,6 +34,7 @@ public:
         else if constexpr (q == crank_work) return r.crank_power;
         else if constexpr (q == friction_loss) return r.contact.friction_power;
         else if constexpr (q == damping_loss) return r.contact.damping_power;
+        else if constexpr (q == load_work) return r.load_power;
         else if constexpr (q == peak_crank_torque || q == rms_crank_torque) return r.drive_torque;
         else if constexpr (q == peak_position_error || q == rms_position_error) return r.position_error;
         else if constexpr (q == peak_rod_angular_velocity || q == rms_rod_angular_velocity) return r.rod_spin;
@@ -72,12 +72,12 @@ public:
     }
 
     /// As many integrands, the first ones, are powers of the energy audit: reports may tell them alone.
-    static constexpr int powers = audit_integrals + 2;
+    static constexpr int powers = first_audited + audit_integrals;
     SLIDEWAY_FN static void powers_of(Report const& r, Real* values) {
         for_each_quantity([&]<Quantity q>(Named<q>) {
             if constexpr (Places::is_audited(q)) values[place_of<q>] = value<q>(r, AtStage{}, 0);
         });
-        values[turnover] = abs(r.crank_power);
+        values[turnover] = abs(r.crank_power) + abs(r.load_power);
         values[springs] = r.contact.elastic_power;
     }
 
@@ -194,7 +194,8 @@ public:
         Real const crank_work = integral_[place_of<Quantity::crank_work>];
         Real const friction_loss = integral_[place_of<Quantity::friction_loss>];
         Real const damping_loss = integral_[place_of<Quantity::damping_loss>];
-        return {energy_ - start_energy_, crank_work, friction_loss, damping_loss, integral_[turnover],
+        Real const load_work = integral_[place_of<Quantity::load_work>];
+        return {energy_ - start_energy_, crank_work, friction_loss, damping_loss, load_work, integral_[turnover],
                 largest_potential_,      made_,      astray_,       exchanged_};
     }
 
@@ -211,9 +212,9 @@ public:
     }
 
 protected:
-    static constexpr int turnover = audit_integrals, springs = audit_integrals + 1;
-    template <Quantity q>
-    static constexpr int place_of = Places::template integral_of<q> + (Places::is_audited(q) ? 0 : 2);
+    static constexpr int turnover = 0, springs = 1;
+    template <Quantity q> static constexpr int place_of = first_audited + Places::template integral_of<q>;
+    static_assert(place_of<Quantity::load_work> == powers - 1);
 
     /// A quantity of one lane.  @param mean 1/t, of the time integrated.
     template <Quantity q> SLIDEWAY_HD double result(int index, int column, double mean) const {
@@ -253,7 +254,9 @@ protected:
     /// no such excuse.
     SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, Report const& r, bool switches) {
         Real const zero(0.0);
-        Real made = fnma(h, integral[0] - integral[1] - integral[2], r.energy - energy_);
+        using enum Quantity;
+        Real const supplied = (integral[place_of<crank_work>] - integral[place_of<friction_loss>] - integral[place_of<damping_loss>]) + integral[place_of<load_work>];
+        Real made = fnma(h, supplied, r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
         if (switches) {
             Real const taken_up = h * integral[springs];

@@ -4,6 +4,7 @@
 
 #include "kernels/inputs.hpp"
 #include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/slider_loads.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
@@ -19,6 +20,7 @@ template <class Real> struct RigidSliderParameters : SliderParameters<Real> { Re
 /// What a scene chooses of rigid contacts.
 struct RigidConditions {
     bool friction = false, misaligned_way = false;
+    LoadList loads;
     double slip_units = 1;          // slip scales
     bool integrands_alone = false;  // reports tell what is integrated, and nothing else
 
@@ -35,7 +37,7 @@ template <class Real> struct GuideFunctions {
     RigidSliderParameters<double> (*parameters)(Inputs);
     Derivative* lean;
     Derivative* full;
-    JointPairs<Real> (*place)(Real, Real const*, Parameters const&, bool misaligned_way);
+    JointPairs<Real> (*place)(Real, Real const*, Parameters const&, RigidConditions const&);
     Real (*along)(Real, Real const*, Parameters const&);
 };
 
@@ -53,10 +55,12 @@ template <class Guide> struct RigidGuide {
         return p;
     }
 
-    template <class Real> static JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p, bool misaligned_way) {
+    template <class Real> static JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidConditions const& block) {
         auto faults = Faults<Real>::none();
         typename Guide::template At<Real> const guide(t, s, p, faults);
-        return {guide.centre(p), guide.x, guide.vx, s, p, misaligned_way};
+        JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
+        if (block.loads.count > 0) at.load(SliderLoads<Real>::of(block.loads, t, {guide.x, s[0], s[1]}, at.velocity.linear, at.turning, p));
+        return at;
     }
 
     template <bool Full, class Real>
@@ -64,10 +68,19 @@ template <class Guide> struct RigidGuide {
                                    RigidConditions const& block, Real* rates, RigidSliderReport<Real>* report) {
         auto faults = Faults<Real>::none();
         typename Guide::template At<Real> const guide(t, s, p, faults);
-        JointPairs<Real> const at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
+        JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
+        auto loads = SliderLoads<Real>::none();
+        if (block.loads.count > 0) {
+            loads = SliderLoads<Real>::of(block.loads, t, {guide.x, s[0], s[1]}, at.velocity.linear, at.turning, p);
+            at.load(loads);
+        }
         RigidJointContact<Real>* contact = nullptr;
         if constexpr (Full) contact = &report->contact;
-        auto const on = block.joint(at, p).forces(memory, contact, block.integrands_alone);
+        auto on = block.joint(at, p).forces(memory, contact, block.integrands_alone);
+        if (block.loads.count > 0) {
+            on.force = on.force + loads.force;
+            on.torque = on.torque + at.to_joint(loads.torque);
+        }
         auto acceleration = guide.accelerations(on.force, p);
         rates[0] = s[2];
         rates[1] = s[3];
@@ -79,6 +92,8 @@ template <class Guide> struct RigidGuide {
         if constexpr (Full) {
             Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
             guide.tell({centre, velocity, acceleration}, at.turning, on.force, p, false, *report);
+            loads.tell(*report);
+            if (block.loads.count > 0) report->take_loads_off_drive();
         }
         faults.contact_domain = on.jammed;
         faults.geometry = faults.geometry | ((memory.begun == Real(0.0)) & (on.deepest > Real(1e-6) * p.length_scale_y));

@@ -4,6 +4,7 @@
 #include "kernels/joint/face_pair.hpp"
 #include "kernels/joint/way.hpp"
 #include "kernels/mechanisms/guided_centre.hpp"
+#include "kernels/mechanisms/slider_loads.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/real.hpp"
@@ -31,6 +32,7 @@ public:
           turning(SliderTurning<Real>::of(s)),
           motion(joint_motion(misaligned, turning.axes, Vec3<Real>{x, s[0], s[1]}, Vec3<Real>{vx, s[2], s[3]}, turning.spin, p.joint.way)),
           velocity{{vx, s[2], s[3]}, turning.omega},
+          load_torque_{Real(0.0), Real(0.0), Real(0.0)},
           p_(p),
           misaligned_(misaligned) {}
 
@@ -39,6 +41,12 @@ public:
     SliderTurning<Real> turning;
     JointMotion<Real> motion;
     Twist<Real> velocity;
+
+    /// Takes up what acts on the slider beside weight, contact and drive.
+    SLIDEWAY_FN void load(SliderLoads<Real> const& loads) {
+        centre.unloaded = centre.unloaded + centre.response(loads.force);
+        load_torque_ = loads.torque;
+    }
 
     SLIDEWAY_FN JointGeometry<Real> const& geometry() const { return p_.joint.geometry; }
 
@@ -65,12 +73,12 @@ public:
         m[3][3] = p_.inertia.x, m[4][4] = p_.inertia.y, m[5][5] = p_.inertia.z;
     }
 
-    /// Acceleration without contact: under weight, drive and gyroscopic moment.
+    /// Acceleration without contact: under weight, drive, loads and gyroscopic moment.
     SLIDEWAY_FN Twist<Real> unloaded_acceleration() const {
         auto const& w = turning.omega;
         auto const& light = p_.inverse_inertia;
         Vec3<Real> momentum{p_.inertia.x * w.x, p_.inertia.y * w.y, p_.inertia.z * w.z};
-        auto moment = cross(momentum, w);
+        auto moment = cross(momentum, w) + load_torque_;
         return {centre.unloaded, {light.x * moment.x, light.y * moment.y, light.z * moment.z}};
     }
 
@@ -157,6 +165,7 @@ private:
                 {dot(axes.x, torque), dot(axes.y, torque), dot(axes.z, torque)}};
     }
 
+    Vec3<Real> load_torque_;  // along the slider's axes [N m]
     SliderParameters<Real> const& p_;
     bool const misaligned_;
 };

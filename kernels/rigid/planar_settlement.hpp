@@ -23,8 +23,8 @@ template <class Real> class PlanarSettlement {
 public:
     using Parameters = PlanarParameters<Real>;
 
-    SLIDEWAY_HD PlanarSettlement(Parameters const& p, bool friction, bool free_crank, Real located, Real end)
-        : p_(p), friction_(friction), free_crank_(free_crank), located_(located), end_(end) {}
+    SLIDEWAY_HD PlanarSettlement(Parameters const& p, bool friction, bool free_crank, LoadList const& loads, Real located, Real end)
+        : p_(p), friction_(friction), free_crank_(free_crank), loads_(loads), located_(located), end_(end) {}
 
     SLIDEWAY_FN static ContactState<Real> state_of(HeldContact<Real> const& held, Parameters const& p, bool friction) {
         Real const zero(0.0);
@@ -40,7 +40,7 @@ public:
         auto const event = find_events(in, memory, contact);
         Mask<Real> const changed = event | (in & ((memory.held[0].side != zero) | (memory.held[1].side != zero)));
         if (none(changed)) return changed;
-        PlanarLinks<Real> links(t, s, p_, free_crank_);
+        PlanarLinks<Real> links(t, s, p_, free_crank_, loads_);
         links_ = &links;
         PlanarStance<Real> const stance(links, sincos(s[2]), side_[0], side_[1], p_, free_crank_);
         stance_ = &stance;
@@ -258,7 +258,7 @@ private:
     SLIDEWAY_HD PairOf<Real> free_acceleration() const {
         Real const zero(0.0);
         auto centre = links_->centre_acceleration(links_->accelerations(zero, zero, p_, free_crank_));
-        return stance_->acceleration(centre.x, centre.y, spin_);
+        return stance_->acceleration(centre.x, centre.y, spin_, links_->loads.torque / p_.slider_inertia);
     }
 
     SLIDEWAY_FN PairQuestion<Real> question_of(PairOf<Real> const& before, Mask<Real> event) const {
@@ -292,6 +292,7 @@ private:
 
     Parameters const& p_;
     bool friction_, free_crank_;
+    LoadList const& loads_;
     Real located_, end_;
     PlanarLinks<Real>* links_ = nullptr;
     PlanarStance<Real> const* stance_ = nullptr;

@@ -29,8 +29,11 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     static constexpr bool sees_contacts = false, has_patterns = false;  // its watch asks for forces
 
     bool friction = false, free_crank = false;
+    LoadList loads;
 
-    explicit constexpr RigidPlanarSliderCrank(Parts const& parts) : friction(parts.friction), free_crank(parts.free_crank) {}
+    explicit constexpr RigidPlanarSliderCrank(Parts const& parts) : friction(parts.friction), free_crank(parts.free_crank), loads(parts.loads) {}
+
+    SLIDEWAY_HD bool has_loads() const { return loads.count > 0; }
 
     /// Of a member; what a law needs of its restitution is not worked out.
     SLIDEWAY_FN static PlanarParameters<double> parameters(Inputs in) {
@@ -61,13 +64,13 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     SLIDEWAY_NOINLINE Faults<Real> derivative(Real t, Real const* s, PlanarParameters<Real> const& p, RigidMemory<Real> const& memory,
                                               Real* rates, RigidPlanarReport<Real>* report) const {
         Real const zero(0.0);
-        PlanarLinks<Real> links(t, s, p, free_crank);
+        PlanarLinks<Real> links(t, s, p, free_crank, loads);
         PlanarCorners<Real> corners(links, s, p);
         if constexpr (Full) begin_report(corners, memory, report->contact);
         // NaN in a lane whose angles are, whatever its neighbours touch.
         auto const nothing = corners.push_of_nothing();
         auto motion = links.accelerations(nothing.fx, nothing.fy, p, free_crank);
-        Real torque = nothing.torque;
+        Real torque = nothing.torque + links.loads.torque;
         auto jammed = memory.jammed > zero;
         auto const held = (memory.held[0].side != zero) | (memory.held[1].side != zero);
         if (any(held)) {
@@ -75,13 +78,13 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
             auto centre = links.centre_acceleration(motion);
             using Settlement = PlanarSettlement<Real>;
             ContactState<Real> const state[2] = {Settlement::state_of(memory.held[0], p, friction), Settlement::state_of(memory.held[1], p, friction)};
-            auto const force = stance.pair.solve(stance.acceleration(centre.x, centre.y, s[5]), {zero, zero}, state);
+            auto const force = stance.pair.solve(stance.acceleration(centre.x, centre.y, s[5], links.loads.torque / p.slider_inertia), {zero, zero}, state);
             auto const load = stance.load(force);
             auto const pushed = links.accelerations(load.x, load.y, p, free_crank);
             motion.a1 = select(held, pushed.a1, motion.a1);
             motion.a2 = select(held, pushed.a2, motion.a2);
             motion.r1 = select(held, pushed.r1, motion.r1);
-            torque = select(held, load.torque, torque);
+            torque = select(held, load.torque + links.loads.torque, torque);
             jammed = jammed | (held & (max(force.normal[0], force.normal[1]) > Real(jamming_force) * force_scale(p)));
             if constexpr (Full) tell(stance, links, s[5], force, state, p, report->contact);
         }
@@ -103,7 +106,7 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     template <class Real>
     SLIDEWAY_NOINLINE Mask<Real> settle(Mask<Real> in, Real t, Real end, Real* s, PlanarParameters<Real> const& p, RigidMemory<Real>& memory,
                                         RigidPlanarContact<Real> const& contact) const {
-        PlanarSettlement<Real> settlement(p, friction, free_crank, located(p, end), end);
+        PlanarSettlement<Real> settlement(p, friction, free_crank, loads, located(p, end), end);
         return settlement.run(in, t, s, memory, contact);
     }
 

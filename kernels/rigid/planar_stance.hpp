@@ -53,13 +53,13 @@ template <class Real> struct PlanarStance {
         return motion;
     }
 
-    /// Their accelerations, of a block that does not turn faster.  @param ax, ay of the centre
-    SLIDEWAY_FN PairOf<Real> acceleration(Real ax, Real ay, Real spin) const {
+    /// Their accelerations.  @param ax, ay of the centre  @param spin_rate ψ'' without forces in the contacts
+    SLIDEWAY_FN PairOf<Real> acceleration(Real ax, Real ay, Real spin, Real spin_rate) const {
         Real const square = spin * spin;
         PairOf<Real> motion;
         for (int i = 0; i < 2; ++i) {
-            motion.normal[i] = negated(side[i]) * fnma(y[i], square, ay);
-            motion.along[i] = fnma(x[i], square, ax);
+            motion.normal[i] = negated(side[i]) * (fnma(y[i], square, ay) + x[i] * spin_rate);
+            motion.along[i] = fnma(x[i], square, ax) - y[i] * spin_rate;
         }
         return motion;
     }

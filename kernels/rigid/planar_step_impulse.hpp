@@ -27,7 +27,7 @@ public:
         contact.books = ImpactBooks<Real>::none();
         contact.count_modes(closed_, side_);
         if (none(near_[0] | near_[1])) return failed_;
-        PlanarLinks<Real> links(t, free, p_, free_crank_);
+        PlanarLinks<Real> links(t, free, p_, free_crank_, {});  // impulses alone
         PlanarStance<Real> const stance(links, sincos(free[2]), side_[0], side_[1], p_, free_crank_);
         auto const before = stance.motion(links.vx, links.vy, free[5]);
         // A corner that leaves by itself takes no part: one that the other throws back meets its wall in a step of its own, with its restitution.

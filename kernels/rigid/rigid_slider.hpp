@@ -39,8 +39,9 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     GuideFunctions<Tangent<Number>> const* sloped_guide;  // of members with shadows, else nullptr
 
     constexpr RigidSlider(Parts const& parts, GuideFunctions<Number> const* guide, GuideFunctions<Tangent<Number>> const* sloped_guide = nullptr)
-        : block{parts.friction, parts.misaligned_way}, guide(guide), sloped_guide(sloped_guide) {}
+        : block{parts.friction, parts.misaligned_way, parts.loads}, guide(guide), sloped_guide(sloped_guide) {}
 
+    SLIDEWAY_HD bool has_loads() const { return block.loads.count > 0; }
     RigidSliderParameters<double> parameters(Inputs const& in) const { return guide->parameters(in); }
     /// A slider without a drive has no speed that slips are to be seen against.
     SLIDEWAY_HD void set_tolerance(double rtol) { block.slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
@@ -163,7 +164,7 @@ private:
         else return *guide;
     }
     template <class Real> JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p) const {
-        return guide_of<Real>().place(t, s, p, block.misaligned_way);
+        return guide_of<Real>().place(t, s, p, block);
     }
 
     template <class Real> SLIDEWAY_FN static void put_velocity(Mask<Real> in, Twist<Real> const& velocity, Real* s) {

@@ -66,7 +66,10 @@ def _draw(resolved: dict[str, Any], result: xr.Dataset, member: int) -> None:
     both = {"joint.clearance": ("clearance_y", "clearance_z"),
             "contact.young_modulus": ("slider_young_modulus", "way_young_modulus")}
     for key, variable in varied(result).items():
-        group, name = key.split(".", 1)
+        *groups, name = key.split(".")
         value = float(result[variable].sel(member=member))
         for each in both.get(key, (name,)):
-            resolved.setdefault(group, {})[each] = value
+            table = resolved
+            for group in groups:
+                table = table.setdefault(group, {})
+            table[each] = value

@@ -8,6 +8,7 @@
 
 #include "joint_loads.hpp"
 #include "laws.hpp"
+#include "loads.hpp"
 #include "mechanism.hpp"
 #include "pairs.hpp"
 #include "poses.hpp"
@@ -114,15 +115,18 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
         return nothing;
     }
     JointLoads const joint = joint_loads(in, parts, slider, impact_speeds);
+    LoadPlace const place{Real(in.start_angle) + Real(in.crank_speed) * Real(t), t, slider.centre.x(), slider.velocity.x()};
+    LoadSum const loads = load_sum(in, parts, place, slider.pose, slider.pose_rate);
+    Vector3 const force = joint.force + loads.force;
 
     Real const beta = in.inclination;
     Vector3 const gravity = -Real(in.gravity) * Vector3(std::sin(beta), std::cos(beta), 0);
-    Vector3 acceleration = joint.force / in.slider_mass + gravity;
+    Vector3 acceleration = force / in.slider_mass + gravity;
     Real energy = slider_energy(in, slider, gravity) + joint.potential;
     Result result;
     switch (parts.mechanism) {
         case Mechanism::slider_crank: {
-            Motion const motion = solve_motion(in, crank, gravity, joint.force);
+            Motion const motion = solve_motion(in, crank, gravity, force);
             acceleration = motion.slider_acceleration;
             energy += rod_energy(in, crank, gravity);
             report_crank(in, crank, motion, gravity, result);
@@ -131,9 +135,9 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
         case Mechanism::carriage:
         case Mechanism::scotch_yoke: {
             // The drive gives what the joint and the weight leave of M x''.
-            Real const force = in.slider_mass * (drive.ax - acceleration.x());
+            Real const push = in.slider_mass * (drive.ax - acceleration.x());
             acceleration.x() = drive.ax;
-            result.power_crank = static_cast<double>(force * drive.vx);
+            result.power_crank = static_cast<double>(push * drive.vx);
             result.ideal_x = static_cast<double>(drive.x);
             break;
         }
@@ -146,12 +150,15 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
             break;
     }
     result.energy = static_cast<double>(energy);
+    Real const of_crank = loads.crank_torque * in.crank_speed;
+    result.power_load = static_cast<double>(loads.slider_power + of_crank);
+    result.power_crank -= static_cast<double>(of_crank);
 
     Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
     Matrix3 const attitude = slider.pose.topLeftCorner<3, 3>();
     Vector3 const& spin = slider.angular_velocity;
     Vector3 const gyroscopic = spin.cross(inertia.cwiseProduct(spin));
-    Vector3 const spin_up = (attitude.transpose() * joint.torque - gyroscopic).cwiseQuotient(inertia);
+    Vector3 const spin_up = (attitude.transpose() * (joint.torque + loads.torque) - gyroscopic).cwiseQuotient(inertia);
     Vector3 const angle_rates = euler_rates(slider.roll, slider.yaw, spin);
     for (int i = 0; i < 2; ++i) result.derivative[i] = state[2 + i];
     for (int i = 0; i < 2; ++i) result.derivative[2 + i] = static_cast<double>(acceleration[1 + i]);

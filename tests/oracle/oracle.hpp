@@ -27,6 +27,7 @@ struct Result {
 
     State derivative{};
     double power_crank = 0;                          // F_A · v_A, or F_x vx of a driven slider [W]
+    double power_load = 0;                           // of the scene's loads [W]
     double power_friction = 0;                       // loss, -Σ F_t · v_t [W]
     double power_damping = 0;                        // loss, Σ (F - F_elastic) δ' [W]
     std::array<double, 8> pen_y{}, pen_z{};          // δ [m], > 0 in contact

@@ -5,6 +5,7 @@
 
 #include "laws.hpp"
 #include "linear_solve.hpp"
+#include "loads.hpp"
 #include "numbers.hpp"
 
 namespace oracle {
@@ -86,7 +87,7 @@ void PlanarMechanism::load_corner(int i, Real impact_speed, PlanarResult& result
     result.contact_potential += stiffness_ * std::pow(depth, n + 1) / (n + 1);
 }
 
-PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_speeds, long double torque) const {
+PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_speeds, long double torque, long double time) const {
     Inputs const& in = in_;
     Real const crank = in.crank_length, rod = in.rod_length;
     Real const half_length = Real(in.slider_length) / 2, half_height = Real(in.slider_height) / 2;
@@ -125,6 +126,16 @@ PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_spe
         result.power_friction -= drag * velocity.x();
     }
     count_modes(result.depth, result);
+    Point const& hole = bodies[2].centre;
+    Vector2 const speed_of_hole = hole.jacobian * rates;
+    Matrix4 pose = Matrix4::Identity(), pose_rate = Matrix4::Zero();
+    Real const cosine = std::cos(Real(s[2])), sine = std::sin(Real(s[2]));
+    pose.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
+    pose_rate.topLeftCorner<2, 2>() << -sine * rates[2], -cosine * rates[2], cosine * rates[2], -sine * rates[2];
+    pose.topRightCorner<2, 1>() = hole.place, pose_rate.topRightCorner<2, 1>() = speed_of_hole;
+    auto const loads = load_sum(in, parts_, {s[0], time, hole.place.x(), speed_of_hole.x()}, pose, pose_rate);
+    load += hole.jacobian.transpose() * loads.force.head<2>() + Vector3(loads.crank_torque, 0, loads.torque.z());
+    result.power_load = loads.force.head<2>().dot(speed_of_hole) + loads.torque.z() * rates[2] + loads.crank_torque * rates[0];
     result.energy += result.contact_potential;
 
     // Unknown: q'' and the torque, which is given on a free crank and holds θ1'' = 0 on a driven one.

@@ -27,6 +27,7 @@ struct PlanarResult {
     long double contact_potential = 0;                  // [J]
     long double drive_torque = 0;                       // what holds the crank's speed [N m]; 0 of a free crank
     long double power_drive = 0;                        // its power [W]
+    long double power_load = 0;                         // of the scene's loads [W]
     long double power_friction = 0, power_damping = 0;  // losses [W]
 };
 
@@ -39,9 +40,9 @@ public:
     PlanarMechanism(slideway::Inputs const& completed, slideway::Parts const& parts);
 
     /// Everything at one instant.  @param impact_speeds v0 [m/s] for Damping::restitution, its start value 1e-4 where
-    /// null and never less.  @param torque on a free crank [N m], as a drive would exert it
+    /// null and never less.  @param torque on a free crank [N m], as a drive would exert it  @param time that loads are read at [s]
     [[nodiscard]] PlanarResult at(PlanarState const& state, Corners const* impact_speeds = nullptr,
-                                  long double torque = 0) const;
+                                  long double torque = 0, long double time = 0) const;
 
 private:
     void load_corner(int i, long double impact_speed, PlanarResult& result) const;

@@ -24,6 +24,7 @@ constexpr std::array layers = {
     Layer{"kernels/lane_copy.hpp", 2},
     Layer{"kernels/math", 2},
     Layer{"kernels/laws", 3},
+    Layer{"kernels/loads", 3},
     Layer{"kernels/conditions.hpp", 4},
     Layer{"kernels/joint", 4},
     Layer{"kernels/mechanisms", 5},
@@ -51,7 +52,7 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 14> plain_data = {
+constexpr std::array<std::string_view, 15> plain_data = {
     "kernels/key.hpp",
     "kernels/inputs.hpp",
     "kernels/status.hpp",
@@ -60,6 +61,7 @@ constexpr std::array<std::string_view, 14> plain_data = {
     "kernels/grid_task.hpp",
     "kernels/joint/apex.hpp",
     "kernels/laws/law_info.hpp",
+    "kernels/loads/load_list.hpp",
     "kernels/laws/list.hpp",
     "kernels/mechanisms/list.hpp",
     "kernels/mechanisms/mechanism_info.hpp",

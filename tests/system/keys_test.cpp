@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/config/key_reference.hpp"
+#include "host/config/loads.hpp"
 #include "tests/system/process.hpp"
 
 namespace slideway::testing::keys_test {
@@ -24,6 +25,7 @@ protected:
 std::set<std::string> all_names() {
     std::set<std::string> names;
     for (Setting const& row : settings()) names.emplace(row.name);
+    for (Setting const& row : load_settings()) names.emplace(row.name);
     for (auto const table : {keys(), twin_keys()}) {
         for (Key const& key : table) names.emplace(key.name);
     }
@@ -69,7 +71,11 @@ TEST_F(ListedKeys, AreAllInTheJsonWithWhatTheTablesSay) {
 TEST_F(ListedKeys, AreAllInTheSchema) {
     Json const schema = listed("--schema");
     std::set<std::string> names;
-    for (auto const& [table, value] : schema["properties"].items()) {
+    for (auto const& [table_of_keys, value_of_keys] : schema["properties"].items()) {
+        // Loads are tables of any name, all with the same keys.
+        bool const of_any_name = value_of_keys.contains("additionalProperties") && value_of_keys["additionalProperties"].is_object();
+        std::string const table = of_any_name ? table_of_keys + ".<name>" : table_of_keys;
+        Json const& value = of_any_name ? value_of_keys["additionalProperties"] : value_of_keys;
         if (!value.contains("properties")) {
             names.insert(table);
             continue;

@@ -4,15 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "host/backend/backend.hpp"
+#include "host/config/descriptors.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/planar.hpp"
 #include "tests/oracle/random_states.hpp"
+#include "tests/support/load_table.hpp"
 #include "tests/unit/mechanisms/oracle_comparison.hpp"
 
 namespace slideway::mechanism_oracle_test {
@@ -84,13 +88,13 @@ void compare_planar_probe(Isa isa, oracle::PlanarCase const& c, std::string cons
                   load * in.slider_length / in.slider_inertia_z);
     compare.group("penetrations", in_double(r.depth), p.penetration_y, 4);
     compare.group("forces", in_double(r.force), p.normal_force_y, 4);
-    long double const powers[] = {r.power_drive, r.power_friction, r.power_damping};
-    double const got[] = {p.power_crank, p.power_friction, p.power_damping};
+    long double const powers[] = {r.power_drive, r.power_friction, r.power_damping, r.power_load};
+    double const got[] = {p.power_crank, p.power_friction, p.power_damping, p.power_load};
     // A rate of penetration is a small difference of velocities, each of which is rounded.
     double const pin_speed = in.crank_length * std::abs(in.crank_speed);
     double const speed =
         pin_speed + in.rod_length * std::abs(static_cast<double>(start[4])) + in.slider_length * std::abs(in.wz);
-    compare.group("powers", powers, got, 3,
+    compare.group("powers", powers, got, 4,
                   1e-6 * load * speed + (c.parts.free_crank ? 0 : (load + weight) * pin_speed));
     compare.value("energy", static_cast<double>(r.energy), p.energy, weight * reach);
     compare.value("potential", static_cast<double>(r.contact_potential), p.contact_potential);
@@ -109,6 +113,59 @@ TEST_P(PlanarKernelsAgainstOracle, AgreeOnThousandsOfStates) {
 
 INSTANTIATE_TEST_SUITE_P(Isas, PlanarKernelsAgainstOracle, isas,
                          [](auto const& p) { return std::string(name_of(p.param)); });
+
+/// Loads of all kinds on a case, with numbers of their own.
+class RandomLoads {
+public:
+    explicit RandomLoads(std::uint64_t seed) : draw_(seed) {}
+
+    /// @param weight of the mechanism [N]
+    void put(Inputs& in, Parts& parts, std::size_t i, double weight) {
+        int next = 0;
+        bool const crank = info(parts.mechanism).drive == DriveKind::crank;
+        for (Load& load : loads_) load = {};
+        auto const put = [&](int (&places)[3], double size) {
+            for (int& place : places) place = testing::put_load_number(in, next, size * number());
+        };
+        put(loads_[0].force, 3 * weight);
+        put(loads_[0].point, 0.5 * in.slider_length);
+        LoadArgument const over[] = {LoadArgument::time, LoadArgument::x, LoadArgument::vx, LoadArgument::crank_angle};
+        loads_[0].over = over[i % (crank ? 4 : 3)];
+        loads_[0].table = (i % 2 == 0 ? wave_ : ramp_).table();
+        loads_[1].turns_with_slider = true;
+        put(loads_[1].force, weight);
+        put(loads_[1].torque, weight * in.slider_length);
+        loads_[1].scale = testing::put_load_number(in, next, number());
+        if (crank) loads_[2].crank_torque = testing::put_load_number(in, next, weight * in.crank_length * number());
+        parts.loads = {loads_.data(), crank ? 3 : 2};
+    }
+
+private:
+    double number() { return static_cast<double>(draw_() >> 11) * 0x1p-52 - 1; }
+
+    std::mt19937_64 draw_;
+    std::array<Load, 3> loads_;
+    testing::Pieces wave_{{{0, 1, 2, 0, 0}, {0.5, 2, 0, -8, 0}, {1, 0, 1, 0, 0}}, 2, true}, ramp_{{{-1, -2, 1, 0.1, 0.2}, {0.1, 3, 0.5, 0, 0}}, 3};
+};
+
+TEST(LoadsAgainstOracle, AgreeOnThousandsOfStates) {
+    for (Mechanism const mechanism : oracle::spatial_mechanisms()) {
+        RandomLoads loads(44);
+        auto cases = oracle::make_cases(20261128, 2000, mechanism);
+        int compared = 0;
+        for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+            loads.put(cases[i].inputs, cases[i].parts, i, cases[i].inputs.slider_mass * cases[i].inputs.gravity);
+            compared += compare_probe(best_isa(), cases[i], oracle::name_of(mechanism) + " case " + std::to_string(i));
+        }
+        EXPECT_GT(compared, 1800);
+    }
+    RandomLoads loads(45);
+    auto cases = oracle::make_planar_cases(20261129, 2000);
+    for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+        loads.put(cases[i].inputs, cases[i].parts, i, cases[i].inputs.slider_mass * cases[i].inputs.gravity);
+        compare_planar_probe(best_isa(), cases[i], "planar case " + std::to_string(i));
+    }
+}
 
 }  // namespace
 }  // namespace slideway::mechanism_oracle_test

@@ -19,7 +19,7 @@ constexpr double smallest = 1e-9;  // M (c ω)²
 Audit audit_with(double made, double turnover = 0, double stored = 0) {
     Audit audit{};
     audit.friction_loss = audit.damping_loss = 1e-3;
-    audit.crank_turnover = turnover;
+    audit.turnover = turnover;
     audit.stored = stored;
     audit.made = made;
     return audit;

@@ -119,11 +119,11 @@ TEST(Observer, PeaksAreTheLargestOfStartAndAcceptedSteps) {
     }
 }
 
-/// Where an integral stands: those of the audit come first, in the table's order, then two of which it keeps books, then the others.
-template <Quantity q> constexpr int place = Observer::Places::integral_of<q> + (Observer::Places::is_audited(q) ? 0 : 2);
-constexpr int crank_magnitude = Observer::audit_integrals, springs = crank_magnitude + 1;
-static_assert(Observer::powers == springs + 1);
-static_assert(place<Quantity::crank_work> == 0 && place<Quantity::friction_loss> == 1 && place<Quantity::damping_loss> == 2);
+/// Where an integral stands: two of which the audit keeps books come first, then its own, in the table's order, then the others.
+template <Quantity q> constexpr int place = Observer::first_audited + Observer::Places::integral_of<q>;
+constexpr int crank_magnitude = 0, springs = 1;
+static_assert(Observer::first_audited == 2 && Observer::powers == 2 + Observer::audit_integrals);
+static_assert(place<Quantity::crank_work> == 2 && place<Quantity::friction_loss> == 3 && place<Quantity::damping_loss> == 4 && place<Quantity::load_work> == 5);
 
 TEST(Observer, IntegrandsAreThoseOfTheTable) {
     double values[Observer::integrals];
@@ -190,11 +190,14 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     watched.step(1, with_energy(50), {}, first);
     watched.step(3, with_energy(102.5), {}, second);
     watched.finish(4);
-    EXPECT_EQ(watched(Quantity::crank_work), 7);
-    EXPECT_EQ(watched(Quantity::friction_loss), 14);
-    EXPECT_EQ(watched(Quantity::damping_loss), 21);
+    double const work = 7 * (place<Quantity::crank_work> + 1), friction = 7 * (place<Quantity::friction_loss> + 1),
+                 damping = 7 * (place<Quantity::damping_loss> + 1), loads = 7 * (place<Quantity::load_work> + 1);
+    EXPECT_EQ(watched(Quantity::crank_work), work);
+    EXPECT_EQ(watched(Quantity::friction_loss), friction);
+    EXPECT_EQ(watched(Quantity::damping_loss), damping);
+    EXPECT_EQ(watched(Quantity::load_work), loads);
     EXPECT_EQ(watched(Quantity::energy_change), 2.5);
-    EXPECT_EQ(watched(Quantity::energy_residual), 2.5 - 7 + 14 + 21);
+    EXPECT_EQ(watched(Quantity::energy_residual), 2.5 - work - loads + friction + damping);
     auto const mean = [](int at) { return 7 * (at + 1) / 4.0; };
     EXPECT_EQ(watched(Quantity::mean_normal_force), mean(place<Quantity::mean_normal_force>));
     EXPECT_EQ(watched(Quantity::rms_crank_torque), std::sqrt(mean(place<Quantity::rms_crank_torque>)));

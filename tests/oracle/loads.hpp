@@ -1,0 +1,22 @@
+// Loads on slider and crank, as the textbook writes them (model.md 14).
+#pragma once
+
+#include "numbers.hpp"
+#include "oracle.hpp"
+
+namespace oracle::detail {
+
+/// What a load may be read over.
+struct LoadPlace { Real crank_angle = 0, time = 0, x = 0, vx = 0; };
+
+/// Of all loads.
+struct LoadSum {
+    Vector3 force = Vector3::Zero();   // on the slider, inertial frame [N]
+    Vector3 torque = Vector3::Zero();  // about the slider's centre, inertial frame [N m]
+    Real crank_torque = 0;             // [N m]
+    Real slider_power = 0;             // Σ F · v of the points they act at, and of the torques [W]
+};
+/// @param pose, pose_rate of the slider: 4 × 4 matrices
+LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, Matrix4 const& pose, Matrix4 const& pose_rate);
+
+}  // namespace oracle::detail

@@ -1,0 +1,67 @@
+// The jobs of examples/jobs: each runs, and comes to what can be known without it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "host/store/result_view.hpp"
+#include "tests/support/shell.hpp"
+
+namespace slideway::jobs_test {
+namespace {
+
+std::string const jobs = std::string(SLIDEWAY_SOURCE) + "/examples/jobs/";
+
+/// Mean of a column of a job's result.  @param options more of the command line
+double mean_of(std::string const& job, std::string const& options, std::string const& name) {
+    auto const folder = std::filesystem::temp_directory_path() / ("slideway_job_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    auto const run = testing::run_shell(folder, std::string(SLIDEWAY_BINARY) + " run '" + jobs + job + "' -o job.nc " + options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    double sum = 0;
+    auto const values = ResultReader((folder / "job.nc").string()).values(name);
+    for (double const value : values) sum += value;
+    std::filesystem::remove_all(folder);
+    return sum / static_cast<double>(values.size());
+}
+
+/// Work of the indicator diagram on the pump without clearance, by the rule of trapezia over straight lines between its rows [J per turn].
+double work_of_indicator() {
+    std::ifstream file(jobs + "indicator.csv");
+    std::string line;
+    std::getline(file, line);
+    std::vector<double> angle, pressure;
+    char comma;
+    for (double a, p; file >> a >> comma >> p;) angle.push_back(a * std::numbers::pi / 180), pressure.push_back(1e5 * p);
+    double const r = 0.03, l = 0.12, area = 4.909e-4;
+    auto const x = [&](double t) { return r * std::cos(t) + std::sqrt(l * l - r * r * std::sin(t) * std::sin(t)); };
+    double work = 0;
+    constexpr int parts = 36'000;
+    for (int i = 0; i < parts; ++i) {
+        double const a = 2 * std::numbers::pi * i / parts, b = 2 * std::numbers::pi * (i + 1) / parts, middle = 0.5 * (a + b);
+        std::size_t row = 0;
+        while (row + 2 < angle.size() && angle[row + 1] <= middle) ++row;
+        double const share = (middle - angle[row]) / (angle[row + 1] - angle[row]);
+        work -= area * std::lerp(pressure[row], pressure[row + 1], share) * (x(b) - x(a));
+    }
+    return work;
+}
+
+TEST(Jobs, PumpDoesTheWorkOfItsIndicatorDiagram) {
+    std::string const few = "--set study.members=16 --set study.verify=0";
+    double const work = mean_of("pump.toml", few, "load_work") / 5;
+    // Between rows the pressure is no straight line.
+    EXPECT_NEAR(work, work_of_indicator(), 0.01 * std::abs(work));
+    std::string const no_pressure = few + " --set 'study.vary.\"load.plunger.scale\"={dist=\"const\",value=0}'";
+    double const lost = mean_of("pump.toml", few, "friction_loss"), without = mean_of("pump.toml", no_pressure, "friction_loss");
+    EXPECT_GT(lost, 20 * without);
+    double const given = mean_of("pump.toml", few, "crank_work");
+    EXPECT_NEAR(given, -5 * work + lost, 0.01 * given);
+}
+
+}  // namespace
+}  // namespace slideway::jobs_test

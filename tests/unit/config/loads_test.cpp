@@ -1,0 +1,189 @@
+// [load.<name>]: what a scene may say of loads, and what it is told where it errs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "host/config/loads.hpp"
+#include "kernels/loads/table_value.hpp"
+#include "kernels/mechanisms/list.hpp"
+#include "tests/support/scene_fixture.hpp"
+
+namespace slideway::scene_loads_test {
+namespace {
+
+using testing::contains;
+using testing::error_of;
+using testing::scene_of;
+
+class SceneLoadFiles : public ::testing::Test {
+protected:
+    std::filesystem::path const folder_ = std::filesystem::temp_directory_path() / ("slideway_loads_" + std::to_string(getpid()));
+
+    SceneLoadFiles() { std::filesystem::create_directories(folder_); }
+    ~SceneLoadFiles() override { std::filesystem::remove_all(folder_); }
+
+    std::string file(std::string const& text) const {
+        auto const path = folder_ / "p.csv";
+        std::ofstream(path) << text;
+        return path.string();
+    }
+    std::string scene(std::string const& csv, std::string const& more = "over = \"crank_angle\"\ncolumn = \"pressure\"\nscale = 3e-4\n") const {
+        return "schema = 1\n[load.gas]\nforce_x = -1\ntable = \"" + file(csv) + "\"\n" + more;
+    }
+};
+
+/// Of a load of a scene, by the name of its number.
+double number(Scene const& scene, std::size_t row, std::string_view name) {
+    Load load = scene.loads->load(row);
+    for (LoadNumber const& one : load_numbers()) {
+        if (one.name == name) return scene.inputs.*load_inputs[one.place(load)];
+    }
+    return std::nan("");
+}
+
+TEST(SceneLoads, AreForcesWithUnitsOnSliderAndCrank) {
+    Scene const scene = scene_of(R"(schema = 1
+[load.cutting]
+force_x = "-1.5 kN"
+point_y = "3 mm"
+frame = "slider"
+[load.brake]
+on = "crank"
+torque = "-20 N mm"
+)");
+    ASSERT_EQ(scene.parts.loads.count, 2);
+    EXPECT_EQ(number(scene, 0, "force_x"), -1500);
+    EXPECT_EQ(number(scene, 0, "point_y"), 3e-3);
+    EXPECT_NEAR(number(scene, 1, "torque"), -0.02, 1e-17);
+    EXPECT_TRUE(scene.parts.loads.loads[0].turns_with_slider);
+    EXPECT_EQ(scene.parts.loads.loads[0].force[1], Load::none);
+    EXPECT_EQ(scene.parts.loads.loads[1].force[0], Load::none);
+}
+
+TEST(SceneLoads, VaryAndAreSetLikeOtherNumbers) {
+    Scene const scene = scene_of("schema = 1\n[load.gas]\nforce_x = 3\n[study]\nmembers = 50\n[study.vary]\n\"load.gas.force_x\" = { dist = \"unif\", low = 1, high = 2 }\n",
+                                 {{"load.gas.scale", "0.5"}});
+    EXPECT_EQ(number(scene, 0, "scale"), 0.5);
+    Load load = scene.loads->load(0);
+    double least = 9, most = 0;
+    for (std::uint64_t m = 0; m < 50; ++m) {
+        double const force = member_inputs(scene, m).*load_inputs[load.force[0]];
+        least = std::min(least, force), most = std::max(most, force);
+    }
+    EXPECT_GE(least, 1);
+    EXPECT_LE(most, 2);
+    EXPECT_GT(most - least, 0.5);
+}
+
+TEST_F(SceneLoadFiles, ReadATableInItsUnits) {
+    Scene const scene = scene_of(this->scene("crank_angle [deg], other, pressure [bar]\n0, 9, 1\n90, 9, 5\n180, 9, 2\n360, 9, 1\n"));
+    auto const table = scene.parts.loads.loads[0].table;
+    EXPECT_TRUE(table.repeats);
+    EXPECT_NEAR(table.high, 2 * std::numbers::pi, 1e-15);
+    EXPECT_NEAR(table_point(table, std::numbers::pi / 2).value, 5e5, 1e-9);
+    EXPECT_NEAR(table_point(table, std::numbers::pi * 5).value, 2e5, 1e-8);
+    EXPECT_EQ(number(scene, 0, "scale"), 3e-4);
+}
+
+TEST_F(SceneLoadFiles, AreReadAgainFromTheResolvedScene) {
+    std::string const text = scene("crank_angle [deg], pressure\n0, 1\n120, 5\n360, 1\n") + "[load.pull]\nforce_y = 2\nframe = \"slider\"\n[friction]\n";
+    std::string const resolved = resolved_toml(scene_of(text));
+    Scene const again = scene_of(resolved);
+    EXPECT_EQ(resolved_toml(again), resolved);
+    EXPECT_EQ(number(again, 0, "force_x"), -1);
+    EXPECT_NEAR(table_point(again.parts.loads.loads[0].table, 2 * std::numbers::pi / 3).value, 5, 1e-12);
+    EXPECT_EQ(again.loads->rows()[1].name, "pull");
+    // Another table is another scene.
+    file("crank_angle [deg], pressure\n0, 1\n120, 5.0001\n360, 1\n");
+    EXPECT_NE(resolved_toml(scene_of(text)), resolved);
+}
+
+TEST(SceneLoads, ErrorsAreOneLine) {
+    struct Bad { char const *text, *words; };
+    for (Bad const& bad : {
+             Bad{"[load.gas]\n", "scene.toml:2: load.gas.force_x is missing"},
+             Bad{"[load]\ngas = 3\n", "load.gas is 3 (a load is a table)"},
+             Bad{"[load.Gas]\nforce_x = 1\n", "is no name of a load"},
+             Bad{"[load.gas]\nforce = 1\n", "load.gas.force is no key of a load"},
+             Bad{"[load.gas]\nforce_x = \"3 mm\"\n", "load.gas.force_x is \"3 mm\""},
+             Bad{"[load.gas]\ntorque = 1\n", "it is of loads on the crank"},
+             Bad{"[load.gas]\non = \"crank\"\nforce_x = 1\n", "it is of loads on the slider"},
+             Bad{"[load.gas]\nforce_x = 1\nscale = nan\n", "load.gas.scale is nan"},
+             Bad{"[load.gas]\nforce_x = 1\nover = \"x\"\n", "it is of a table, and there is none"},
+             Bad{"[load.gas]\nforce_x = 1\ntable = \"nowhere.csv\"\nover = \"x\"\ncolumn = \"f\"\n", "nowhere.csv cannot be read"},
+             Bad{"[load.gas]\nforce_x = 1\ntable = \"nowhere.csv\"\nover = \"x\"\n", "load.gas.column is missing"},
+             Bad{"[mechanism]\nkind = \"carriage\"\n[load.gas]\non = \"crank\"\ntorque = 1\n", "a carriage has no crank"},
+             Bad{"[mechanism]\nkind = \"planar_slider_crank\"\n[load.gas]\nforce_z = 1\n", "load.gas.force_z has no meaning"},
+             Bad{"[load.a]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\npoint_z=0\n"
+                 "[load.b]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\n", "all loads of a scene have sixteen numbers at most"},
+         }) {
+        std::string const error = error_of(std::string("schema = 1\n") + bad.text);
+        EXPECT_TRUE(contains(error, bad.words)) << bad.text << "\n" << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos);
+    }
+}
+
+TEST_F(SceneLoadFiles, BadTablesAreOneLine) {
+    struct Bad { char const *csv, *words; };
+    for (Bad const& bad : {
+             Bad{"", "the table is empty"},
+             Bad{"crank_angle [deg], pressure\n", "the table is too short"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n", "p.csv:2: the table is too short"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n200, 3\n100, 2\n360, 1\n", "p.csv:4: crank_angle (the places do not rise)"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n100, 3\n100, 2\n360, 1\n", "p.csv:4: crank_angle (the place stands twice)"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n100, \n360, 1\n", "p.csv:3"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n100, nan\n360, 1\n", "p.csv:3"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n100, 3\n360, 1.5\n", "the period does not close"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n100, 3\n350, 1\n", "a period is of whole turns"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n1e-320, 3\n360, 1\n", "the load has no finite slope"},
+             Bad{"crank_angle [deg], pressure, pressure\n0, 1, 2\n360, 1, 2\n", "the table has several columns pressure"},
+             Bad{"crank_angle [mm], pressure\n0, 1\n360, 1\n", "its unit is none of rad"},
+             Bad{"crank_angle [deg], pressure [kg]\n0, 1\n360, 1\n", "its unit is none of"},
+             Bad{"angle [deg], pressure\n0, 1\n360, 1\n", "the table has no column crank_angle"},
+             Bad{"crank_angle [deg], force\n0, 1\n360, 1\n", "the table has no column pressure"},
+         }) {
+        std::string const error = error_of(scene(bad.csv));
+        EXPECT_TRUE(contains(error, bad.words)) << bad.csv << "\n" << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos);
+    }
+}
+
+TEST_F(SceneLoadFiles, BoundTheStepsThatWouldLeapOverThem) {
+    auto const longest = [&](std::string const& csv, std::string const& over, std::string const& more = "") {
+        return scene_of(this->scene(csv, "over = \"" + over + "\"\ncolumn = \"pressure\"\n") + "[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n" + more).integrator.max_step;
+    };
+    EXPECT_NEAR(longest("time [s], pressure\n0, 0\n0.5037, 0\n0.5087, 200\n0.5137, 0\n1, 0\n", "time"), 2.5e-3, 1e-12);
+    // A crank that turns in 2 s: a fiftieth of that but for the table.
+    EXPECT_NEAR(longest("crank_angle [deg], pressure\n0, 0\n100, 0\n101, 5\n102, 0\n360, 0\n", "crank_angle"), 2.0 / 720, 1e-12);
+    EXPECT_NEAR(longest("crank_angle [deg], pressure\n0, 1\n180, 2\n360, 1\n", "crank_angle"), 0.04, 1e-12);
+    EXPECT_EQ(longest("time [s], pressure\n0, 0\n1, 1\n", "time", "[integrator]\nmax_step = 0.03\n"), 0.03);
+}
+
+TEST_F(SceneLoadFiles, MayHaveAMillionRows) {
+    std::string csv = "time [s], pressure\n";
+    for (int i = 0; i < 1'000'000; ++i) csv += std::to_string(i) + "," + std::to_string(i % 7) + "\n";
+    std::string const more = "over = \"time\"\ncolumn = \"pressure\"\n";
+    Scene const scene = scene_of(this->scene(csv, more));
+    EXPECT_NEAR(table_point(scene.parts.loads.loads[0].table, 777'777).value, 777'777 % 7, 1e-9);
+    EXPECT_TRUE(contains(error_of(this->scene(csv + "1000000,3\n", more)), "at most 1000000 rows"));
+}
+
+TEST(SceneLoads, OfOneProcessKeepTheirKeysApart) {
+    // Names in another order have their own places all the same.
+    Scene const one = scene_of("schema = 1\n[load.gas]\nforce_x = 1\n[load.spring]\nforce_x = 2\n");
+    Scene const other = scene_of("schema = 1\n[load.spring]\nforce_x = 4\n[load.gas]\nforce_x = 3\n");
+    EXPECT_EQ(number(one, 0, "force_x"), 1);
+    EXPECT_EQ(number(other, 0, "force_x"), 4);
+    EXPECT_EQ(number(other, 1, "force_x"), 3);
+    Scene const none = scene_of("schema = 1\n");
+    EXPECT_FALSE(counts_for(*find_key("load.gas.force_x"), none.parts));
+    EXPECT_TRUE(counts_for(*find_key("load.gas.force_x"), one.parts));
+    EXPECT_TRUE(contains(error_of("schema = 1\n[study]\nmembers = 2\n[study.vary]\n\"load.gas.force_x\" = { dist = \"unif\", low = 1, high = 2 }\n"), "load.gas.force_x"));
+}
+
+}  // namespace
+}  // namespace slideway::scene_loads_test
