@@ -18,8 +18,8 @@ template <class Laws> struct Conditions {
     bool free_crank = false;
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
     bool by_clocks = false;      // and go by the clocks of impacts
-    LoadList loads;
     bool powers_alone = false;    // reports tell the powers of the energy audit, and nothing else
+    LoadList loads;
 
     constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)
         : law(of_law),

@@ -32,7 +32,7 @@ struct Parts {
     Mechanism mechanism{};
     bool free_crank = false;  // of planar_slider_crank: no drive holds the crank's speed
     bool rigid = false;       // contacts have no law: kernels/rigid
-    LoadList loads;           // beside weight, contact and drive
+    LoadList loads = {};      // beside weight, contact and drive
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 

@@ -13,17 +13,17 @@ namespace slideway {
 namespace {
 
 constexpr LoadNumber numbers[] = {
-    {"force_x", "N", "force along X", [](Load& l) -> int& { return l.force[0]; }, false, true, true},
-    {"force_y", "N", "force along Y", [](Load& l) -> int& { return l.force[1]; }, false, true, true},
-    {"force_z", "N", "force along Z", [](Load& l) -> int& { return l.force[2]; }, false, true, false},
-    {"torque_x", "N m", "torque about X", [](Load& l) -> int& { return l.torque[0]; }, false, true, false},
-    {"torque_y", "N m", "torque about Y", [](Load& l) -> int& { return l.torque[1]; }, false, true, false},
-    {"torque_z", "N m", "torque about Z", [](Load& l) -> int& { return l.torque[2]; }, false, true, true},
-    {"point_x", "m", "where the force acts, along the slider's X from its centre", [](Load& l) -> int& { return l.point[0]; }, false, true, true},
-    {"point_y", "m", "where the force acts, along the slider's Y", [](Load& l) -> int& { return l.point[1]; }, false, true, true},
-    {"point_z", "m", "where the force acts, along the slider's Z", [](Load& l) -> int& { return l.point[2]; }, false, true, false},
-    {"torque", "N m", "torque on the crank", [](Load& l) -> int& { return l.crank_torque; }, true, false, true},
-    {"scale", "1", "what force and torque are multiplied by", [](Load& l) -> int& { return l.scale; }, true, true, true},
+    {.name = "force_x", .unit = "N", .meaning = "force along X", .place = [](Load& l) -> int& { return l.force[0]; }},
+    {.name = "force_y", .unit = "N", .meaning = "force along Y", .place = [](Load& l) -> int& { return l.force[1]; }},
+    {.name = "force_z", .unit = "N", .meaning = "force along Z", .place = [](Load& l) -> int& { return l.force[2]; }, .planar = false},
+    {.name = "torque_x", .unit = "N m", .meaning = "torque about X", .place = [](Load& l) -> int& { return l.torque[0]; }, .planar = false},
+    {.name = "torque_y", .unit = "N m", .meaning = "torque about Y", .place = [](Load& l) -> int& { return l.torque[1]; }, .planar = false},
+    {.name = "torque_z", .unit = "N m", .meaning = "torque about Z", .place = [](Load& l) -> int& { return l.torque[2]; }},
+    {.name = "point_x", .unit = "m", .meaning = "where the force acts, along the slider's X from its centre", .place = [](Load& l) -> int& { return l.point[0]; }},
+    {.name = "point_y", .unit = "m", .meaning = "where the force acts, along the slider's Y", .place = [](Load& l) -> int& { return l.point[1]; }},
+    {.name = "point_z", .unit = "m", .meaning = "where the force acts, along the slider's Z", .place = [](Load& l) -> int& { return l.point[2]; }, .planar = false},
+    {.name = "torque", .unit = "N m", .meaning = "torque on the crank", .place = [](Load& l) -> int& { return l.crank_torque; }, .of_crank = true, .of_slider = false},
+    {.name = "scale", .unit = "1", .meaning = "what force and torque are multiplied by", .place = [](Load& l) -> int& { return l.scale; }, .of_crank = true},
 };
 
 using Type = Setting::Type;

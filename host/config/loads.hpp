@@ -20,8 +20,8 @@ struct Setting;
 struct LoadNumber {
     std::string_view name, unit, meaning;
     int& (*place)(Load&);
-    bool of_crank, of_slider;  // of loads on which of them
-    bool planar;               // it means something in a plane
+    bool of_crank = false, of_slider = true;  // of loads on which of them
+    bool planar = true;                       // it means something in a plane
 };
 std::span<LoadNumber const> load_numbers();
 

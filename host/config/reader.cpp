@@ -139,8 +139,10 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     scene.path = name;
     Reading reading{root, scene, rows, rules};
     read_modules(reading);
-    std::vector<Setting> const keys = with_physics(rows);
-    reading.keys = keys;
+    // The program's own rows are known with all numbers; of others they are put together.
+    bool const own = rows.data() == settings().data();
+    std::vector<Setting> const keys = own ? std::vector<Setting>() : with_physics(rows);
+    reading.keys = own ? known_keys() : Settings(keys);
     check_known(reading);
     check_schema(root);
     scene.title = read_title(root);

@@ -16,6 +16,8 @@
 
 namespace slideway {
 
+class CsvReader;
+
 /// A document on its way to a scene, by the tables of keys and of their rules.
 struct Reading {
     Node const& root;
@@ -47,6 +49,8 @@ struct InputFile {
 };
 /// From the scene's folder on, at most 256 MiB.
 InputFile read_file_beside(Node const& node, std::string const& scene);
+/// A field of its row for messages: `members.csv:3: name is "text" (…); …`.
+Node field_node(CsvReader const& table, std::string name, std::string text);
 
 /// [load.<name>]: Scene::loads, and the keys of their numbers; needs the mechanism.
 void read_loads(Reading& reading);

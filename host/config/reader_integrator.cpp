@@ -55,8 +55,6 @@ void warn_of_idle_keys(Node const& table, Reading& reading) {
     }
 }
 
-/// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
-/// hopeless and should not hold a lane for minutes.
 /// The longest step that does not leap over what a table has between two rows, but a 4000th of the whole table;
 /// infinite where nothing is known of how fast that passes.
 double step_within_tables(Scene const& scene, double period) {
@@ -77,6 +75,8 @@ double step_within_tables(Scene const& scene, double period) {
     return step;
 }
 
+/// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
+/// hopeless and should not hold a lane for minutes.
 std::uint64_t default_max_steps(RunLength const& length, double max_step) {
     constexpr double start = 1e7, per_second = 1e7, largest = most_steps;
     double const steps = start + per_second * length.longest + 2 * (length.longest / max_step + length.stops);

@@ -60,14 +60,7 @@ private:
         if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
         refuse(asking, {fmt::format("the table has no column {}", name), fmt::format("name one of {}, or correct the header", fmt::join(names, ", "))});
     }
-    Node cell(std::size_t column) const {
-        Node node;
-        node.name = fmt::format("column {}", column + 1);
-        node.where = rows_.where();
-        node.type = Node::Type::text;
-        node.text = rows_.fields()[column];
-        return node;
-    }
+    Node cell(std::size_t column) const { return field_node(rows_, fmt::format("column {}", column + 1), rows_.fields()[column]); }
     double number(std::size_t column, UnitFactor const& factor) {
         CellNumber number;
         if (auto const fault = rows_.read_number(column, number)) refuse(cell(column), {fault->reason, fault->advice.empty() ? "use a number" : fault->advice});
@@ -94,7 +87,7 @@ public:
         if (on_crank_ && !turns) refuse(*node.find("on"), {fmt::format("a {} has no crank", info(scene.parts.mechanism).name), "use on = \"slider\""});
         if (on_crank_ && node.find("frame") != nullptr) refuse(*node.find("frame"), {"the torque on a crank is about its axis", "remove it"});
         for (Node const& child : node.children) check(child);
-        if (numbers_.empty() || std::ranges::all_of(numbers_, [](LoadNumber const* number) { return number->name == "scale" || number->name.starts_with("point"); }))
+        if (std::ranges::all_of(numbers_, [](LoadNumber const* number) { return number->name == "scale" || number->name.starts_with("point"); }))
             refuse_missing(node, node.name + (on_crank_ ? ".torque" : ".force_x"), "a load without a force or a torque does nothing", "give one");
         read_table();
     }

@@ -17,6 +17,7 @@ std::string listed(MethodSet methods) {
         auto const method = static_cast<Method>(i);
         if ((methods & set_of(method)) != 0) names.push_back(fmt::format("\"{}\"", name_of(method)));
     }
+    if (names.empty()) return {};
     std::string const last = names.back();
     names.pop_back();
     return fmt::format("{} or {}", fmt::join(names, ", "), last);

@@ -28,17 +28,6 @@ struct Column {
     bool has_missing = false;            // in words, such as NA
 };
 
-/// A field of the table for messages: `members.csv:3: name is "text" (…); …`.
-Node field_node(CsvReader const& table, std::string name, std::string text) {
-    Node node;
-    node.name = std::move(name);
-    node.where = table.where();
-    node.line = table.line();
-    node.type = Node::Type::text;
-    node.text = std::move(text);
-    return node;
-}
-
 [[noreturn]] void refuse_column(Node const& header) {
     refuse(header, {"only numeric keys of the physics can be columns", key_advice(column_header(header.text).name)});
 }
@@ -200,6 +189,16 @@ private:
 };
 
 }  // namespace
+
+Node field_node(CsvReader const& table, std::string name, std::string text) {
+    Node node;
+    node.name = std::move(name);
+    node.where = table.where();
+    node.line = table.line();
+    node.type = Node::Type::text;
+    node.text = std::move(text);
+    return node;
+}
 
 InputFile read_file_beside(Node const& node, std::string const& scene) {
     constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory

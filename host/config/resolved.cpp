@@ -69,6 +69,11 @@ std::string lines_of(Setting const& row, Scene const& scene) {
                        derivation_of(*row.physics, scene.parts, scene.inputs));
 }
 
+/// Of a table in a file.  The checksum tells a changed one from the one that was run.
+std::string file_text(std::string const& path, std::size_t rows, std::uint64_t checksum) {
+    return fmt::format("{}  # {} rows, FNV-1a {:016x}", toml_string(path), rows, checksum);
+}
+
 /// [load.name], one after the other.
 std::string loads_text(Scene const& scene) {
     std::string text;
@@ -83,8 +88,7 @@ std::string loads_text(Scene const& scene) {
             if (place != Load::none) text += number_line(number.name, scene.inputs.*load_inputs[place], number.unit);
         }
         if (table.function == nullptr) continue;
-        // The checksum tells a changed table from the one that was run.
-        text += fmt::format("table = {}  # {} rows, FNV-1a {:016x}\n", toml_string(table.path), table.rows, table.checksum);
+        text += fmt::format("table = {}\n", file_text(table.path, table.rows, table.checksum));
         text += fmt::format("over = \"{}\"\ncolumn = {}\n", load_arguments[static_cast<int>(load.over) - 1], toml_string(table.column));
         text += fmt::format("interpolation = \"{}\"\nrepeats = {}\n", interpolation_names[static_cast<int>(table.interpolation)], load.table.repeats);
     }
@@ -179,11 +183,10 @@ std::string base(Scene const& scene, Setting const&) {
     return scene.design.kind == DesignKind::saltelli ? fmt::format("{}", scene.design.base) : std::string();
 }
 
-/// The checksum tells a changed table from the one that was run.
 std::string member_table(Scene const& scene, Setting const&) {
     if (scene.design.kind != DesignKind::table) return {};
     MemberTable const& table = *scene.design.table;
-    return fmt::format("{}  # {} rows, FNV-1a {:016x}", toml_string(table.path), table.rows(), table.checksum);
+    return file_text(table.path, table.rows(), table.checksum);
 }
 
 std::string variations(Scene const& scene, Setting const&) {

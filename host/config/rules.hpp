@@ -12,9 +12,19 @@ namespace slideway {
 
 struct Reading;
 
-/// What of a scene is read when a rule is looked at: which mechanism; its contacts; a key that varies; which study; how its members are spread; its
-/// lengths of time; all of the study; which method, on what contacts; how it integrates; all.
-enum class Known { mechanism, contacts, variation, study_kind, members, orbits, study, method, integrator, all };
+/// What of a scene is read when a rule is looked at, one after the other.
+enum class Known {
+    mechanism,
+    contacts,
+    variation,   // a key that varies: of its rules alone
+    study_kind,
+    members,     // how they are spread
+    orbits,      // their lengths of time
+    study,       // all of [study]
+    method,      // on which contacts
+    integrator,  // all of [integrator]
+    all
+};
 
 struct KeyRule {
     enum class What {

@@ -14,6 +14,14 @@ template <class Real> struct Axes {
     Real z_shortfall;  // z.z − 1
 };
 
+/// A vector along the slider's axes in the frame that these are given in, and the other way round.
+template <class Real> SLIDEWAY_FN Vec3<Real> from_slider(Axes<Real> const& axes, Vec3<Real> const& v) {
+    return fma(v.x, axes.x, fma(v.y, axes.y, v.z * axes.z));
+}
+template <class Real> SLIDEWAY_FN Vec3<Real> to_slider(Axes<Real> const& axes, Vec3<Real> const& v) {
+    return {dot(axes.x, v), dot(axes.y, v), dot(axes.z, v)};
+}
+
 /// Sines and cosines of roll φ, yaw ϑ and pitch ψ.
 template <class Real> struct Attitude { SinCos<Real> roll, yaw, pitch; };
 

@@ -11,7 +11,7 @@ enum class LoadArgument { nothing, crank_angle, time, x, vx };
 struct PieceTable {
     struct Piece { double from, value, slope, square, cube; };
 
-    Piece const* pieces = nullptr;  // [count], in the order of their beginnings; none: the table is 1 everywhere
+    Piece const* pieces = nullptr;  // [count], in the order of their beginnings
     int count = 0;
     double low = 0, high = 0;  // it goes from here to there: beyond them it repeats, or stays as it is at the nearer end
     bool repeats = false;

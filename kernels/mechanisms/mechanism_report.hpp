@@ -18,7 +18,6 @@ template <class Real> struct MechanismReport {
     Real crank_torque;        // (A × F_A)_z [N m]
     Real drive_torque;        // the crank's own weight included [N m]
     Real load_power = Real(0.0);  // of the loads on slider and crank [W]
-    Real load_crank_power, load_crank_torque;  // of those on the crank [W], [N m]
     Real energy;              // E of model.md 8, contact potential included [J]
     Real position_error;      // distance of the slider's centre from the ideal mechanism's [m]
     Real rod_spin;            // rod's angular velocity, magnitude [rad/s]
@@ -68,12 +67,6 @@ template <class Real> struct MechanismReport {
                 break;
         }
         return Real(not_a_number);
-    }
-
-    /// Torque of loads on the crank is not the drive's.
-    SLIDEWAY_FN void take_loads_off_drive() {
-        crank_power = crank_power - load_crank_power;
-        drive_torque = drive_torque - load_crank_torque;
     }
 
 protected:

@@ -56,9 +56,7 @@ template <class Real> struct SliderLoads {
     SLIDEWAY_NOINLINE static SliderLoads of(LoadList const& list, Real t, Vec3<Real> const& position, Vec3<Real> const& velocity,
                                             SliderTurning<Real> const& turning, SliderParameters<Real> const& p) {
         auto const& axes = turning.axes;
-        auto const to_slider = [&](Vec3<Real> const& v) { return Vec3<Real>{dot(axes.x, v), dot(axes.y, v), dot(axes.z, v)}; };
-        auto const to_ground = [&](Vec3<Real> const& v) { return fma(v.x, axes.x, fma(v.y, axes.y, v.z * axes.z)); };
-        auto const slider_velocity = to_slider(velocity);
+        auto const slider_velocity = to_slider(axes, velocity);
         LoadArguments<Real> const arguments{fma(p.crank_speed, t, p.start_angle), t, position.x, velocity.x};
         auto sum = none();
         for (int i = 0; i < list.count; ++i) {
@@ -67,10 +65,10 @@ template <class Real> struct SliderLoads {
             auto force = numbers.scaled(load.force), torque = numbers.scaled(load.torque);
             auto const point = numbers.as_given(load.point);
             if (load.turns_with_slider) {
-                sum.force = sum.force + to_ground(force);
+                sum.force = sum.force + from_slider(axes, force);
             } else {
                 sum.force = sum.force + force;
-                force = to_slider(force), torque = to_slider(torque);
+                force = to_slider(axes, force), torque = to_slider(axes, torque);
             }
             torque = torque + cross(point, force);
             sum.torque = sum.torque + torque;
@@ -82,15 +80,11 @@ template <class Real> struct SliderLoads {
         return sum;
     }
 
-    /// A torque along the slider's axes in the frame that these are given in.
-    SLIDEWAY_FN static Vec3<Real> along(Axes<Real> const& axes, Vec3<Real> const& torque) {
-        return fma(torque.x, axes.x, fma(torque.y, axes.y, torque.z * axes.z));
-    }
-
+    /// What a report tells of them, once it has told the rest: torque on the crank is not the drive's.
     template <class Report> SLIDEWAY_FN void tell(Report& report) const {
         report.load_power = power;
-        report.load_crank_power = crank_power;
-        report.load_crank_torque = crank_torque;
+        report.crank_power = report.crank_power - crank_power;
+        report.drive_torque = report.drive_torque - crank_torque;
     }
 };
 

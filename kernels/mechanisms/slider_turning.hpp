@@ -22,14 +22,14 @@ template <class Real> struct SliderTurning {
         t.axes = slideway::axes(t.angles);
         Real const turn = fma(t.omega.y, t.angles.roll.sin, t.omega.z * t.angles.roll.cos);
         t.pitch_rate = turn / t.angles.yaw.cos;
-        t.spin = fma(t.omega.x, t.axes.x, fma(t.omega.y, t.axes.y, t.omega.z * t.axes.z));
+        t.spin = from_slider(t.axes, t.omega);
         return t;
     }
 
     /// Derivatives of φ ϑ ψ ωx ωy ωz.  @param torque τ about the slider's centre [N m] and its axes, both in the frame of the joint.
     SLIDEWAY_CARD_CALL void put_rates(Vec3<Real> const& torque, Axes<Real> const& of_joint, Vec3<Real> const& inertia,
                                Vec3<Real> const& inverse_inertia, Real* rates) const {
-        Vec3<Real> along{dot(of_joint.x, torque), dot(of_joint.y, torque), dot(of_joint.z, torque)};
+        auto along = to_slider(of_joint, torque);
         Vec3<Real> momentum{inertia.x * omega.x, inertia.y * omega.y, inertia.z * omega.z};
         auto moment = along - cross(omega, momentum);
         rates[4] = fma(pitch_rate, angles.yaw.sin, omega.x);

@@ -124,11 +124,11 @@ private:
         Joint<Real, Laws, Full> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
         auto wrench = joint.wrench(faults.contact_domain);
         auto force = to_inertial(block.misaligned_way, wrench.force, way);
+        [[maybe_unused]] SliderLoads<Real> loads;
         if constexpr (loaded) {
-            auto const loads = SliderLoads<Real>::of(block.loads, t, position, velocity, turning, p);
+            loads = SliderLoads<Real>::of(block.loads, t, position, velocity, turning, p);
             force = force + loads.force;
-            wrench.torque = wrench.torque + SliderLoads<Real>::along(motion.axes, loads.torque);
-            if constexpr (Full) loads.tell(*report);
+            wrench.torque = wrench.torque + from_slider(motion.axes, loads.torque);
         }
         auto acceleration = guide.accelerations(force, p);
         rates[0] = velocity.y;
@@ -140,7 +140,7 @@ private:
         if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
         if constexpr (Full) {
             guide.tell({position, velocity, acceleration}, turning, force, p, block.powers_alone, *report);
-            if constexpr (loaded) report->take_loads_off_drive();
+            if constexpr (loaded) loads.tell(*report);
         }
         return faults;
     }

@@ -59,7 +59,7 @@ template <class Guide> struct RigidGuide {
         auto faults = Faults<Real>::none();
         typename Guide::template At<Real> const guide(t, s, p, faults);
         JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
-        if (block.loads.count > 0) at.load(SliderLoads<Real>::of(block.loads, t, {guide.x, s[0], s[1]}, at.velocity.linear, at.turning, p));
+        take_up_loads(at, t, s, p, block);
         return at;
     }
 
@@ -69,17 +69,13 @@ template <class Guide> struct RigidGuide {
         auto faults = Faults<Real>::none();
         typename Guide::template At<Real> const guide(t, s, p, faults);
         JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
-        auto loads = SliderLoads<Real>::none();
-        if (block.loads.count > 0) {
-            loads = SliderLoads<Real>::of(block.loads, t, {guide.x, s[0], s[1]}, at.velocity.linear, at.turning, p);
-            at.load(loads);
-        }
+        auto const loads = take_up_loads(at, t, s, p, block);
         RigidJointContact<Real>* contact = nullptr;
         if constexpr (Full) contact = &report->contact;
         auto on = block.joint(at, p).forces(memory, contact, block.integrands_alone);
         if (block.loads.count > 0) {
             on.force = on.force + loads.force;
-            on.torque = on.torque + at.to_joint(loads.torque);
+            on.torque = on.torque + from_slider(at.motion.axes, loads.torque);
         }
         auto acceleration = guide.accelerations(on.force, p);
         rates[0] = s[2];
@@ -93,11 +89,20 @@ template <class Guide> struct RigidGuide {
             Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
             guide.tell({centre, velocity, acceleration}, at.turning, on.force, p, false, *report);
             loads.tell(*report);
-            if (block.loads.count > 0) report->take_loads_off_drive();
         }
         faults.contact_domain = on.jammed;
         faults.geometry = faults.geometry | ((memory.begun == Real(0.0)) & (on.deepest > Real(1e-6) * p.length_scale_y));
         return faults;
+    }
+
+    /// What loads do to a slider where it is; nothing without them.
+    template <class Real>
+    SLIDEWAY_FN static SliderLoads<Real> take_up_loads(JointPairs<Real>& at, Real t, Real const* s, RigidSliderParameters<Real> const& p,
+                                                       RigidConditions const& block) {
+        if (block.loads.count == 0) return SliderLoads<Real>::none();
+        auto const loads = SliderLoads<Real>::of(block.loads, t, {at.x, s[0], s[1]}, at.velocity.linear, at.turning, p);
+        at.take_up(loads);
+        return loads;
     }
 
     template <class Real> static Real along(Real t, Real const* s, RigidSliderParameters<Real> const& p) { return Guide::along(t, s, p); }

@@ -43,7 +43,7 @@ public:
     Twist<Real> velocity;
 
     /// Takes up what acts on the slider beside weight, contact and drive.
-    SLIDEWAY_FN void load(SliderLoads<Real> const& loads) {
+    SLIDEWAY_FN void take_up(SliderLoads<Real> const& loads) {
         centre.unloaded = centre.unloaded + centre.response(loads.force);
         load_torque_ = loads.torque;
     }
@@ -80,12 +80,6 @@ public:
         Vec3<Real> momentum{p_.inertia.x * w.x, p_.inertia.y * w.y, p_.inertia.z * w.z};
         auto moment = cross(momentum, w) + load_torque_;
         return {centre.unloaded, {light.x * moment.x, light.y * moment.y, light.z * moment.z}};
-    }
-
-    /// A torque about the slider's axes in the frame of the joint.
-    SLIDEWAY_FN Vec3<Real> to_joint(Vec3<Real> const& torque) const {
-        auto const& axes = motion.axes;
-        return fma(torque.x, axes.x, fma(torque.y, axes.y, torque.z * axes.z));
     }
 
     /// @param number 4 face + place in the face

@@ -147,7 +147,7 @@ SLIDEWAY_HD auto RigidJoint<Real>::forces(Memory const& memory, Contact* contact
     LastingForces<Real> lasting;
     lasting.solve(at_, at_.velocity, depths.of, drift_rate(), last.held, last, memory.loads, friction_);
     on.force = select(holding, lasting.force.linear, on.force);
-    on.torque = select(holding, at_.to_joint(lasting.force.angular), on.torque);
+    on.torque = select(holding, from_slider(at_.motion.axes, lasting.force.angular), on.torque);
     on.jammed = on.jammed | (holding & lasting.failed);
     if (contact == nullptr) return on;
     tell_loads(lasting, *contact);

@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'441u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'063u);
+    EXPECT_LE(Layer("kernels").lines(), 17'435u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'062u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'615u);
-    EXPECT_LE(Layer("host").lines(), 29'965u);
+    EXPECT_LE(Layer("host").lines(), 29'974u);
     EXPECT_LE(Layer("host/store").lines(), 4'187u);
 }
 
@@ -49,7 +49,7 @@ TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
     EXPECT_LE(kernels.count(type).in_all, 353u);
-    EXPECT_LE(Layer("host").count(type).in_all, 372u);
+    EXPECT_LE(Layer("host").count(type).in_all, 358u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 42u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }

@@ -36,6 +36,13 @@ protected:
     }
 };
 
+/// By one line that has these words.
+void expect_refused(std::string const& scene, std::string_view words) {
+    std::string const error = error_of(scene);
+    EXPECT_TRUE(contains(error, words)) << scene << "\n" << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+}
+
 /// Of a load of a scene, by the name of its number.
 double number(Scene const& scene, std::size_t row, std::string_view name) {
     Load load = scene.loads->load(row);
@@ -121,9 +128,7 @@ TEST(SceneLoads, ErrorsAreOneLine) {
              Bad{"[load.a]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\npoint_z=0\n"
                  "[load.b]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\n", "all loads of a scene have sixteen numbers at most"},
          }) {
-        std::string const error = error_of(std::string("schema = 1\n") + bad.text);
-        EXPECT_TRUE(contains(error, bad.words)) << bad.text << "\n" << error;
-        EXPECT_EQ(error.find('\n'), std::string::npos);
+        expect_refused(std::string("schema = 1\n") + bad.text, bad.words);
     }
 }
 
@@ -146,9 +151,8 @@ TEST_F(SceneLoadFiles, BadTablesAreOneLine) {
              Bad{"angle [deg], pressure\n0, 1\n360, 1\n", "the table has no column crank_angle"},
              Bad{"crank_angle [deg], force\n0, 1\n360, 1\n", "the table has no column pressure"},
          }) {
-        std::string const error = error_of(scene(bad.csv));
-        EXPECT_TRUE(contains(error, bad.words)) << bad.csv << "\n" << error;
-        EXPECT_EQ(error.find('\n'), std::string::npos);
+        SCOPED_TRACE(bad.csv);
+        expect_refused(scene(bad.csv), bad.words);
     }
 }
 

@@ -61,10 +61,11 @@ TEST(PieceFunction, OfASplineHasContinuousCurvature) {
         int const count = table.table().count;
         for (int i = 0; i < count; ++i) {
             double const end = i + 1 < count ? pieces[i + 1].from : 2 * pi, h = end - pieces[i].from, curvature = 2 * pieces[i].square + 6 * pieces[i].cube * h;
-            if (i + 1 < count) EXPECT_NEAR(curvature, 2 * pieces[i + 1].square, 1e-12);
-            else EXPECT_NEAR(curvature, repeats ? 2 * pieces[0].square : 0, 1e-12);
+            double const next = i + 1 < count ? 2 * pieces[i + 1].square : repeats ? 2 * pieces[0].square : 0;
+            EXPECT_NEAR(curvature, next, 1e-12);
         }
-        if (!repeats) EXPECT_NEAR(pieces[0].square, 0, 1e-12);
+        double const at_start = pieces[0].square;
+        EXPECT_NEAR(repeats ? 0 : at_start, 0, 1e-12);
     }
 }
 
