@@ -157,9 +157,11 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
         std::string_view const word = text.substr(blanks, end - blanks);
         std::size_t const columns = columns_of(word);
         bool const broken = width > 0 && begun && column + blanks + columns > width;
+        // A path may be longer than the room behind the indent, and still fit the line.
+        std::size_t const before = !broken ? blanks : std::min(indent, width - std::min(columns, width));
         if (broken) lines += '\n';
-        lines.append(broken ? indent : blanks, ' ').append(word);
-        column = (broken ? indent : column + blanks) + columns;
+        lines.append(before, ' ').append(word);
+        column = (broken ? before : column + blanks) + columns;
         begun = true;
         text.remove_prefix(end);
     }

@@ -86,7 +86,8 @@ std::string scene_text(Scene const& scene, std::string const& path);
 inline constexpr std::size_t usual_width = 80;
 /// Columns of the terminal that stdout is; 0 where it is none: then lines are as long as they are.
 std::size_t line_width();
-/// The text broken at blanks into lines that end before column `width` (0: anywhere); all but the first begin with `indent` blanks.
+/// The text broken at blanks into lines that end before column `width` (0: anywhere); all but the first begin with `indent` blanks, or with fewer
+/// where a word needs their room.
 /// @param first column at which the text begins; npos: at `indent`
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width, std::size_t first = std::string_view::npos);
 

@@ -112,6 +112,8 @@ TEST(WrappedText, EndsBeforeItsColumnAndLosesNothing) {
     EXPECT_EQ(wrapped("one two three", 2, 7), "one\n  two\n  three");
     EXPECT_EQ(wrapped("  a   word beside", 4, 10, 0), "  a   word\n    beside");
     EXPECT_EQ(wrapped("unbreakable word", 0, 4), "unbreakable\nword");
+    EXPECT_EQ(wrapped("a longword b", 6, 10), "a\n  longword\n      b") << "a word may take the room of its indent";
+    EXPECT_EQ(wrapped("a unbreakable b", 6, 10), "a\nunbreakable\n      b");
     EXPECT_EQ(wrapped("ΔΔΔ ± ≥", 0, 7), "ΔΔΔ ± ≥") << "characters count, not bytes";
     EXPECT_EQ(wrapped("", 3, 10), "");
 }
