@@ -86,6 +86,7 @@ private:
 struct CrossingPlan {
     enum class On { nothing, state, gap_y, gap_z, impacts, impacts_y, impacts_z } on = On::nothing;
     enum class Direction { rising, falling, both } direction = Direction::rising;
+    bool turns = false;    // the component is an angle: every turn of it comes to the level
     int index = 0;         // of the component, or of the apex, P1…P8 from 0
     double level = 0;      // [unit of the component, or m]
     std::size_t room = 0;  // of each member; later crossings are counted only

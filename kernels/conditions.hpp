@@ -15,11 +15,11 @@ template <class Laws> struct Conditions {
     bool switches = false;   // LawInfo::switches
     bool remembers = false;  // impact speeds: of a damping by restitution
     bool continuous = false;  // LawInfo::continuous, with this damping
-    bool free_crank = false;
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
     bool by_clocks = false;      // and go by the clocks of impacts
     bool powers_alone = false;    // reports tell the powers of the energy audit, and nothing else
     LoadList loads;
+    DrivePlan drive;
 
     constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)
         : law(of_law),
@@ -28,8 +28,8 @@ template <class Laws> struct Conditions {
           switches(law_switches),
           remembers(remembers_of(parts)),
           continuous(of_law.continuous() && !remembers),
-          free_crank(parts.free_crank),
-          loads(parts.loads) {}
+          loads(parts.loads),
+          drive(parts.drive) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.
     static constexpr bool remembers_of(Parts const& parts) {
@@ -39,6 +39,8 @@ template <class Laws> struct Conditions {
         return parts.damping == Damping::restitution;
     }
 
+    /// Whether more acts on the mechanism, or another drive moves it, than weight, contacts and constant speed.
+    SLIDEWAY_FN bool is_plain() const { return loads.count == 0 && drive.by == DriveBy::speed; }
     /// Whether there are switches that steps may end at.
     SLIDEWAY_FN bool can_locate_modes() const { return switches && !remembers; }
 };

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernels/key.hpp"
+#include "kernels/loads/drive_plan.hpp"
 #include "kernels/loads/load_list.hpp"
 
 namespace slideway {
@@ -30,7 +31,7 @@ struct Parts {
     bool friction = false;        // absent [friction]: no friction code runs
     bool misaligned_way = false;  // only with a [way] table does the code for its pose run
     Mechanism mechanism{};
-    bool free_crank = false;  // of planar_slider_crank: no drive holds the crank's speed
+    DrivePlan drive = {};     // what moves the mechanism
     bool rigid = false;       // contacts have no law: kernels/rigid
     LoadList loads = {};      // beside weight, contact and drive
     friend bool operator==(Parts const&, Parts const&) = default;
@@ -54,12 +55,18 @@ struct Parts {
     row(slider_inertia_x, "mechanism.slider_inertia_x", follows, "kg m2", positive, spatial, "inertia of the slider about X")  /* I: of that solid with mass M */ \
     row(slider_inertia_y, "mechanism.slider_inertia_y", follows, "kg m2", positive, spatial, "inertia of the slider about Y") \
     row(slider_inertia_z, "mechanism.slider_inertia_z", follows, "kg m2", positive, slider, "inertia of the slider about Z") \
-    row(crank_inertia, "mechanism.crank_inertia", follows, "kg m2", not_negative, planar, "inertia of the crank about its centre of mass")  /* J1: m_c r²/12 */ \
+    row(crank_inertia, "mechanism.crank_inertia", follows, "kg m2", not_negative, turning, "inertia of the crank about its centre of mass")  /* J1: m_c r²/12 */ \
     row(crank_section, "mechanism.crank_section", 0.005 * 0.0025, "m2", positive, links, "area of the crank's section, from which its mass follows")  /* A_c: 5 × 2.5 mm */ \
     row(rod_section, "mechanism.rod_section", 0.0142 * 0.0071, "m2", positive, links, "area of the rod's section, from which its mass follows")  /* A_r: 14.2 × 7.1 mm */ \
     row(carriage_speed, "mechanism.carriage_speed", 0.06, "m/s", positive, carriage, "speed of the carriage")  /* v */ \
     row(stroke, "mechanism.stroke", 0.15, "m", positive, carriage, "distance that the carriage travels at constant speed") \
     row(reversal_time, "mechanism.reversal_time", 0.02, "s", positive, carriage, "time in which the carriage reverses its direction")  /* t_r */ \
+    /* [drive] */ \
+    row(drive_torque, "drive.torque", 0, "N m", any, drive, "torque of the motor at rest, or all along, times what its table says")  /* T0 */ \
+    row(drive_no_load_speed, "drive.no_load_speed", 0, "rad/s", not_negative, drive, "speed at which the motor's torque has fallen to 0; 0: it does not fall")  /* ω0 */ \
+    row(drive_viscous, "drive.viscous", 0, "N m s/rad", not_negative, drive, "what the drive's bearings take of the torque with the speed")  /* c */ \
+    row(drive_inertia, "drive.inertia", 0, "kg m2", not_negative, drive, "inertia of motor and flywheel, beside the crank's own") \
+    row(drive_scale, "drive.scale", 1, "1", any, drive, "what the drive's profile is multiplied by") \
     /* [joint] */ \
     row(slider_length, "joint.slider_length", 0.04, "m", positive, slider, "length of the slider")  /* L_k */ \
     row(way_width, "joint.way_width", 0.02, "m", positive, spatial, "width of the way along Y")  /* w_a */ \
@@ -120,11 +127,15 @@ struct Inputs {
 #define SLIDEWAY_MEMBER(member, key, preset, unit, rule, group, meaning) double member = preset;
     SLIDEWAY_INPUTS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
+    double profile_speed = follows;  // no key: what the profile of a drive begins with, where there is one [rad/s]
     // 0 where there are fewer.
 #define SLIDEWAY_MEMBER(letter) double law_##letter = 0, mechanism_##letter = 0, load_##letter = 0;
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
 };
+
+/// Of a crank [rad/s].
+constexpr double start_speed(Inputs const& in) { return in.profile_speed == in.profile_speed ? in.drive_scale * in.profile_speed : in.crank_speed; }
 
 constexpr double Key::get(Inputs const& inputs) const { return inputs.*member; }
 constexpr void Key::set(Inputs& inputs, double value) const {

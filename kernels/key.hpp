@@ -26,6 +26,8 @@ enum class KeyGroup {
     planar,      // a block between two walls, and its crank
     crank,       // what turns at crank_speed
     links,       // crank and rod
+    turning,     // a crank whose own inertia counts
+    drive,       // what turns or moves it
     rod_centre,  // a rod whose centre of mass need not lie in its middle
     carriage,    // a drive to and fro
     along,       // a slider that nothing holds along its way

@@ -51,15 +51,16 @@ std::string loads_text(SceneLoads const& loads) {
 
 void print_parts(Scene const& scene) {
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    std::vector<std::string> in{fmt::format("{} mechanism", mechanism.name)}, out;
+    std::vector<std::string> in{fmt::format("{} mechanism", kind_of(scene.parts.mechanism))}, out;
     auto const sort = [&](bool is_in, std::string name) { (is_in ? in : out).push_back(std::move(name)); };
     if (mechanism.spatial) {
         for (LawInfo const& law : laws()) sort(law.name == contact_info(scene.parts).name, fmt::format("{} law", law.name));
         if (may_be_rigid(scene.parts.mechanism)) sort(scene.parts.rigid, "rigid contact");
     } else {
-        sort(true, scene.parts.free_crank ? "free crank" : "driven crank");
         sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
     }
+    constexpr char const* drives[] = {"drive at constant speed", "drive on a profile", "motor", "no drive"};
+    if (mechanism.drive != DriveKind::none) sort(true, drives[static_cast<int>(scene.parts.drive.by)]);
     sort(true, damping_text(scene.parts));
     // Which the scene might have had.
     auto const sort_out = [&](Damping damping, std::string name) {

@@ -26,9 +26,9 @@ template <class... Values> void print_row(fmt::format_string<Values...> format, 
 template <class Has> std::string owners_text(Has has) {
     std::vector<std::string_view> names;
     for (MechanismInfo const& mechanism : mechanisms()) {
-        if (has(mechanism)) names.emplace_back(mechanism.name);
+        if (mechanism.driven_form == nullptr && has(mechanism)) names.emplace_back(mechanism.name);
     }
-    return names.size() == mechanisms().size() ? std::string() : fmt::format(" ({})", fmt::join(names, ", "));
+    return names.size() == mechanism_kinds().size() ? std::string() : fmt::format(" ({})", fmt::join(names, ", "));
 }
 
 /// Where one of a module comes from.
@@ -50,6 +50,7 @@ void print_mechanisms() {
     print_out("mechanisms (mechanism.kind), with the numbers of their state\n");
     auto const all = mechanisms();
     for (MechanismInfo const& mechanism : all) {
+        if (mechanism.driven_form != nullptr) continue;
         std::vector<std::string_view> states, beside;
         Selection left = mechanism.always;
         for (int i = 0; i < mechanism.states; ++i) {

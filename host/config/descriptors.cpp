@@ -93,6 +93,16 @@ std::span<std::string_view const> mechanism_names() {
     static OfAllKnown<std::vector<std::string_view>> names([] { return names_of(mechanisms()); });
     return names();
 }
+std::span<std::string_view const> mechanism_kinds() {
+    static OfAllKnown<std::vector<std::string_view>> names([] {
+        std::vector<std::string_view> kinds;
+        for (MechanismInfo const& one : mechanisms()) {
+            if (one.driven_form == nullptr) kinds.emplace_back(one.name);
+        }
+        return kinds;
+    });
+    return names();
+}
 std::span<std::string_view const> contact_law_names() {
     static OfAllKnown<std::vector<std::string_view>> names([] { return names_of(contact_laws()); });
     return names();
@@ -101,6 +111,8 @@ std::span<std::string_view const> law_names() { return contact_law_names().first
 
 std::optional<Law> find_law(std::string_view name, std::span<std::string const> search) { return find<Law>(law_infos, ModuleKind::law, name, search); }
 std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::string const> search) {
+    // Of forms whose crank turns freely a scene names the driven one, and its drive.
+    if (std::ranges::any_of(mechanism_infos, [&](MechanismInfo const& info) { return info.name == name && info.driven_form != nullptr; })) return std::nullopt;
     return find<Mechanism>(mechanism_infos, ModuleKind::mechanism, name, search);
 }
 OwnModule const* module_of(Law law) { return module_behind(law_infos, ModuleKind::law, static_cast<int>(law)); }
@@ -135,7 +147,18 @@ MechanismInfo const& info(Mechanism mechanism) { return mechanisms()[static_cast
 LawInfo const& info(Law law) { return laws()[static_cast<std::size_t>(law)]; }
 LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }
 
-bool may_be_rigid(Mechanism mechanism) { return static_cast<std::size_t>(mechanism) < std::size(mechanism_infos); }
+bool may_be_rigid(Mechanism mechanism) { return static_cast<std::size_t>(mechanism) < std::size(mechanism_infos) && info(mechanism).may_be_rigid; }
+
+std::string_view kind_of(Mechanism mechanism) {
+    MechanismInfo const& of = info(mechanism);
+    return of.driven_form != nullptr ? of.driven_form : of.name;
+}
+
+std::optional<Mechanism> turning_form(Mechanism mechanism) {
+    if (info(mechanism).may_turn_freely) return mechanism;
+    auto const found = std::ranges::find_if(mechanism_infos, [&](MechanismInfo const& one) { return one.driven_form != nullptr && kind_of(mechanism) == one.driven_form; });
+    return found == std::end(mechanism_infos) ? std::nullopt : std::optional(static_cast<Mechanism>(found - std::begin(mechanism_infos)));
+}
 
 bool choose_contact(Parts& parts, std::string_view name, std::span<std::string const> search) {
     parts.rigid = name == rigid_contact.name;
@@ -151,7 +174,7 @@ bool needs_restitution(Parts const& parts) { return parts.rigid || (has_faces(pa
 bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && contact_info(parts).switches; }
 
 bool is_prescribed(Parts const& parts, int component) {
-    return !parts.free_crank && (info(parts.mechanism).prescribed >> component & 1u) != 0;
+    return !parts.drive.turns_freely() && (info(parts.mechanism).prescribed >> component & 1u) != 0;
 }
 
 int free_states(Parts const& parts) {

@@ -51,8 +51,9 @@ private:
 std::span<MechanismInfo const> mechanisms();
 std::span<LawInfo const> laws();
 
-/// What a scene calls them.
+/// In the order of `mechanisms`, and what a scene may call one: without those whose crank turns freely.
 std::span<std::string_view const> mechanism_names();
+std::span<std::string_view const> mechanism_kinds();
 std::span<std::string_view const> law_names();
 
 /// One by its name: of the tree, or of a module in one of `module_folders(search)`, which is opened then.  @throws DeviceError for a module that cannot be used
@@ -70,6 +71,10 @@ OwnModule const* contact_module(Parts const& parts);
 std::string modules_text(Parts const& parts);
 
 MechanismInfo const& info(Mechanism mechanism);
+/// What a scene calls it: mechanism.kind.
+std::string_view kind_of(Mechanism mechanism);
+/// The same mechanism with angle and speed of its crank in the state, where there is one.
+std::optional<Mechanism> turning_form(Mechanism mechanism);
 LawInfo const& info(Law law);
 /// The law of a scene that names none.
 inline constexpr Law default_law = Law::foundation;
@@ -101,7 +106,7 @@ bool is_prescribed(Parts const& parts, int component);
 /// How many components neighbours may differ in.
 int free_states(Parts const& parts);
 
-/// T [s]: 2π/|ω| of a driven crank, 2 (stroke/v + t_r) of the carriage (model.md 7); infinite where the crank rests or nothing drives.
+/// T [s]: 2π/|ω| of a driven crank, 2 (stroke/v + t_r) of the carriage (model.md 7), or that of a profile that repeats; infinite where nothing comes round.
 double drive_period(Parts const& parts, Inputs const& inputs);
 /// First time in (0, T] at which the drive has this phase [s]: the crank an angle, the carriage a share phase/2π of its period.
 /// @param phase [rad], any turn of it  @param inputs whose drive has a period

@@ -62,13 +62,16 @@ std::optional<Range> magnitudes(Scene const& scene, Key const& key) {
 
 }  // namespace
 
-double drive_period(Parts const& parts, Inputs const& inputs) { return drive_period(info(parts.mechanism), parts.free_crank, inputs); }
+double drive_period(Parts const& parts, Inputs const& inputs) { return drive_period(info(parts.mechanism), parts.drive, inputs); }
 
-double first_time_at(double phase, Parts const& parts, Inputs const& inputs) { return first_time_at(phase, info(parts.mechanism), parts.free_crank, inputs); }
+double first_time_at(double phase, Parts const& parts, Inputs const& inputs) { return first_time_at(phase, info(parts.mechanism), parts.drive, inputs); }
 
 std::string why_no_period(Parts const& parts) {
-    if (!parts.free_crank && info(parts.mechanism).drive != DriveKind::none) return "mechanism.crank_speed is 0";
-    return std::string("nothing drives a ") + (parts.free_crank ? "free crank" : info(parts.mechanism).name);
+    if (parts.drive.by == DriveBy::profile) return "the drive's profile does not repeat";
+    if (parts.drive.by == DriveBy::torque) return "no speed is given of a crank on a motor";
+    if (parts.drive.by == DriveBy::nothing) return "nothing drives a free crank";
+    if (info(parts.mechanism).drive != DriveKind::none) return "mechanism.crank_speed is 0";
+    return std::string("nothing drives a ") + info(parts.mechanism).name;
 }
 
 PeriodRange drive_periods(Scene const& scene) {
@@ -83,7 +86,9 @@ PeriodRange drive_periods(Scene const& scene) {
         key.set(at_least, varied ? varied->low : own);
         key.set(at_most, varied ? varied->high : own);
     };
-    if (info(scene.parts.mechanism).drive == DriveKind::carriage) {
+    if (scene.parts.drive.by == DriveBy::profile) {
+        // A table is the same for all.
+    } else if (info(scene.parts.mechanism).drive == DriveKind::carriage) {
         vary("mechanism.carriage_speed", longest, shortest);
         vary("mechanism.stroke", shortest, longest);
         vary("mechanism.reversal_time", shortest, longest);

@@ -35,7 +35,7 @@ Range usual_range(Setting const& key) { return key.physics != nullptr ? usual_ra
 bool is_of(Setting const& key, std::size_t mechanism) {
     MechanismInfo const& of = mechanisms()[mechanism];
     if (key.name == "contact.law") return of.spatial || may_be_rigid(static_cast<Mechanism>(mechanism));
-    return (!key.of_faces || of.spatial) && (key.name != "mechanism.crank" || of.free_crank);
+    return (!key.of_faces || of.spatial) && (key.table() != "drive" || of.drive != DriveKind::none);
 }
 
 /// Whether a number of the physics counts with a law, where it counts at all.
@@ -91,7 +91,13 @@ std::string_view name_of(Type type) {
 
 std::array<std::vector<std::string_view>, 4> owners_of(Setting const& key) {
     Key const* const physics = key.physics;
-    return {owners(mechanism_names(), [&](std::size_t i) { return physics != nullptr ? counts_for(*physics, static_cast<Mechanism>(i)) : is_of(key, i); }),
+    auto const of_kind = [&](std::size_t i) {
+        Mechanism const kind = find_mechanism(mechanism_kinds()[i]).value_or(Mechanism{});
+        if (physics == nullptr) return is_of(key, static_cast<std::size_t>(kind));
+        auto const turning = turning_form(kind);
+        return counts_for(*physics, kind) || (turning && counts_for(*physics, *turning));
+    };
+    return {owners(mechanism_kinds(), of_kind),
             owners(contact_law_names(), [&](std::size_t i) { return physics == nullptr || is_of_law(*physics, i); }),
             owners(study_kind_names, [&](std::size_t i) { return (key.studies & set_of(static_cast<StudyKind>(i))) != 0; }),
             owners(setting("integrator.method").choices, [&](std::size_t i) { return (key.methods & set_of(static_cast<Method>(i))) != 0; })};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "host/config/loads.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
 #include "host/config/units.hpp"
@@ -149,9 +150,24 @@ bool counts_for(Key const& key, Mechanism mechanism) {
     return has_group(of.keys, key.group) || (of.spatial && of_contacts);
 }
 
+namespace {
+bool is_of_drive(Key const& key, DrivePlan const& drive) {
+    if (key.member == &Inputs::drive_scale) return drive.by == DriveBy::profile;
+    bool const of_motor = key.member == &Inputs::drive_torque || key.member == &Inputs::drive_no_load_speed;
+    return of_motor ? drive.by == DriveBy::torque : drive.turns_freely();
+}
+bool sets_motion(Key const& key) {
+    return key.member == &Inputs::crank_speed || key.member == &Inputs::carriage_speed || key.member == &Inputs::stroke || key.member == &Inputs::reversal_time;
+}
+}  // namespace
+
 bool counts_for(Key const& key, Parts const& parts) {
     if (!counts_for(key, parts.mechanism)) return false;
     if (key.group == KeyGroup::load) return is_of(key, parts.loads);
+    if (key.group == KeyGroup::drive) return is_of_drive(key, parts.drive);
+    // A profile says how fast and how far.
+    bool const of_motion = sets_motion(key), by_profile = parts.drive.by == DriveBy::profile;
+    if (of_motion && by_profile) return false;
     // Rigid contacts stick and slip exactly (docs/model.md 13).
     if (parts.rigid && key.group == KeyGroup::smooth_friction) return false;
     // What gives way under a face.
@@ -235,8 +251,10 @@ constexpr struct {
     {"contact.restitution", "contact.law",
      [](Inputs const& in, Parts const& parts) { return parts.damping == Damping::restitution && !parts.rigid && in.restitution == 0; },
      "what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"},
-    {"mechanism.rod_length", "mechanism.crank_length", [](Inputs const& in, Parts const&) { return in.crank_speed != 0 && in.rod_length <= in.crank_length; },
+    {"mechanism.rod_length", "mechanism.crank_length", [](Inputs const& in, Parts const& parts) { return (in.crank_speed != 0 || parts.drive.by != DriveBy::speed) && in.rod_length <= in.crank_length; },
      "the crank of {crank} m cannot turn fully", "use a rod longer than the crank, or crank_speed = 0"},
+    {"drive.inertia", "drive.kind", [](Inputs const& in, Parts const& parts) { return parts.mechanism == Mechanism::scotch_yoke_motor && in.drive_inertia == 0; },
+     "nothing else turns at a dead centre", "use a value > 0"},
     // The planar mechanism starts with the rod's angle, which follows from y.
     {"initial.y", "mechanism.start_angle",
      [](Inputs const& in, Parts const& parts) {

@@ -14,6 +14,7 @@
 
 namespace slideway {
 
+struct Node;
 struct Setting;
 
 /// A number that a load may have: load.<name>.force_x …
@@ -29,7 +30,7 @@ std::span<LoadNumber const> load_numbers();
 std::span<Setting const> load_settings();
 
 inline constexpr std::string_view load_bodies[] = {"slider", "crank"}, load_frames[] = {"ground", "slider"};
-inline constexpr std::string_view load_arguments[] = {"crank_angle", "time", "x", "vx"};  // in the order of LoadArgument, behind `nothing`
+inline constexpr std::string_view load_arguments[] = {"crank_angle", "time", "x", "vx", "crank_speed"};  // in the order of LoadArgument, behind `nothing`
 
 /// The table of a load, as it was read.
 struct LoadTable {
@@ -40,6 +41,17 @@ struct LoadTable {
     Interpolation interpolation = Interpolation::spline;
     std::shared_ptr<PieceFunction const> function;
 };
+
+/// What a table is to be.
+struct TableKind {
+    std::string_view argument, argument_unit;        // the column that rises
+    std::span<std::string_view const> value_units;   // what the other one may be in
+    bool repeats;
+    Interpolation interpolation;
+    bool advances = false;  // where it repeats, it need not close
+};
+/// Of a file beside a scene.  @param file, column nodes that name them  @throws SceneError
+LoadTable read_table_of(Node const& file, Node const& column, std::string const& scene, TableKind const& kind);
 
 /// All loads of a scene.
 class SceneLoads {

@@ -83,7 +83,13 @@ std::optional<PointFault> PieceFunction::fault_of(std::span<double const> places
 
 PieceFunction::PieceFunction(std::span<double const> places, std::span<double const> values, Interpolation interpolation, bool repeats)
     : high_(places.back()), repeats_(repeats) {
-    Points const points{places, values, repeats};
+    // What it grows by each time is a line; the rest closes.
+    double const low = places.front();
+    advance_ = repeats ? values.back() - values.front() : 0;
+    double const rate = advance_ / (high_ - low);
+    std::vector<double> closed(values.begin(), values.end());
+    for (std::size_t i = 0; rate != 0 && i < closed.size(); ++i) closed[i] -= rate * (places[i] - low);
+    Points const points{places, closed, repeats};
     auto const slopes = interpolation == Interpolation::spline ? spline_slopes(points) : std::vector<double>();
     auto const slope = [&](std::size_t part, std::size_t point) {
         if (interpolation == Interpolation::linear) return points.rise(part);
@@ -91,8 +97,13 @@ PieceFunction::PieceFunction(std::span<double const> places, std::span<double co
     };
     for (std::size_t i = 0; i < points.parts(); ++i) {
         double const h = points.width(i), d = points.rise(i), s0 = slope(i, i), s1 = slope(i, i + 1);
-        pieces_.push_back({places[i], values[i], s0, (3 * d - 2 * s0 - s1) / h, (s0 + s1 - 2 * d) / (h * h)});
+        pieces_.push_back({places[i], values[i], s0 + rate, (3 * d - 2 * s0 - s1) / h, (s0 + s1 - 2 * d) / (h * h)});
     }
+    find_cells();
+}
+
+void PieceFunction::find_cells() {
+    first_.clear();
     // As many cells as pieces, that a piece is next to found where its places are evenly spread.
     if (not_finite()) {
         first_.assign(pieces_.size(), 0);
@@ -108,15 +119,83 @@ PieceFunction::PieceFunction(std::span<double const> places, std::span<double co
 
 std::optional<std::size_t> PieceFunction::not_finite() const {
     auto const found = std::ranges::find_if(pieces_, [](PieceTable::Piece const& p) {
-        return !std::isfinite(p.value) || !std::isfinite(p.slope) || !std::isfinite(p.square) || !std::isfinite(p.cube);
+        return !std::isfinite(p.value) || !std::isfinite(p.slope) || !std::isfinite(p.square) || !std::isfinite(p.cube) || !std::isfinite(p.fourth);
     });
     return found == pieces_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - pieces_.begin()));
+}
+
+PieceFunction PieceFunction::integral() const {
+    PieceFunction grown = *this;
+    double sum = 0;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        auto const& p = pieces_[i];
+        double const h = (i + 1 < pieces_.size() ? pieces_[i + 1].from : high_) - p.from;
+        grown.pieces_[i] = {p.from, sum, p.value, p.slope / 2, p.square / 3, p.cube / 4};
+        sum += h * (p.value + h * (p.slope / 2 + h * (p.square / 3 + h * (p.cube / 4))));
+    }
+    grown.advance_ = repeats_ ? sum : 0;
+    return grown;
+}
+
+PieceFunction PieceFunction::less_its_value_at(double place) const {
+    PieceFunction shifted = *this;
+    double const by = value(place);
+    for (auto& piece : shifted.pieces_) piece.value -= by;
+    return shifted;
+}
+
+PieceFunction PieceFunction::less_a_line(double slope) const {
+    PieceFunction tilted = *this;
+    for (auto& piece : tilted.pieces_) piece.value -= slope * (piece.from - pieces_.front().from), piece.slope -= slope;
+    // Of what it advances by, rounding may be left.
+    double const left = advance_ - slope * (high_ - pieces_.front().from);
+    tilted.advance_ = std::abs(left) < 1e-12 * std::abs(advance_) ? 0 : left;
+    return tilted;
+}
+
+PieceFunction::At PieceFunction::at(double place) const {
+    double const low = pieces_.front().from, times = repeats_ ? std::floor((place - low) / (high_ - low)) : 0;
+    double const inside = std::clamp(place - times * (high_ - low), low, high_);
+    auto const behind = std::ranges::upper_bound(pieces_, inside, {}, &PieceTable::Piece::from);
+    auto const& piece = behind == pieces_.begin() ? pieces_.front() : *std::prev(behind);
+    return {&piece, inside - piece.from, times};
+}
+
+double PieceFunction::value(double place) const {
+    auto const [p, u, times] = at(place);
+    return p->value + u * (p->slope + u * (p->square + u * (p->cube + u * p->fourth))) + times * advance_;
+}
+
+double PieceFunction::slope(double place) const {
+    auto const [p, u, times] = at(place);
+    return p->slope + u * (2 * p->square + u * (3 * p->cube + u * (4 * p->fourth)));
+}
+
+template <class See> void PieceFunction::look_at_pieces(See const& see) const {
+    constexpr int parts = 8;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        double const from = pieces_[i].from, to = i + 1 < pieces_.size() ? pieces_[i + 1].from : high_;
+        for (int part = 0; part < parts; ++part) see(from + (to - from) * part / parts);
+    }
+    if (!repeats_) see(high_);
+}
+
+double PieceFunction::steepest() const {
+    double most = 0;
+    look_at_pieces([&](double place) { most = std::max(most, std::abs(slope(place))); });
+    return most;
+}
+
+double PieceFunction::range() const {
+    double low = pieces_.front().value, high = low;
+    look_at_pieces([&](double place) { low = std::min(low, value(place)), high = std::max(high, value(place)); });
+    return high - low;
 }
 
 PieceTable PieceFunction::table() const {
     PieceTable table;
     table.pieces = pieces_.data(), table.count = static_cast<int>(pieces_.size());
-    table.low = pieces_.front().from, table.high = high_, table.repeats = repeats_;
+    table.low = pieces_.front().from, table.high = high_, table.repeats = repeats_, table.advance = advance_;
     table.first = first_.data(), table.cells = table.count;
     table.cells_per_unit = table.cells / (table.high - table.low);
     return table;

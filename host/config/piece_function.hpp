@@ -1,4 +1,4 @@
-// Functions through given points in cubic pieces, as kernels read them: tables of loads.
+// Functions through given points in cubic pieces, as kernels read them: tables of loads and drives.
 #pragma once
 
 #include <optional>
@@ -30,8 +30,20 @@ public:
     /// Why points make no function: places that do not rise, values that are none, a period that does not close.
     static std::optional<PointFault> fault_of(std::span<double const> places, std::span<double const> values, bool repeats);
 
-    /// @param places rising  @param values at them; where it repeats the last is the first again
+    /// @param places rising  @param values at them; where it repeats the last is the first again, or each time it is larger by their difference
     PieceFunction(std::span<double const> places, std::span<double const> values, Interpolation interpolation, bool repeats);
+
+    /// What grows as this says: its integral, 0 at the first point.
+    PieceFunction integral() const;
+    /// The same, shifted so that it is 0 at a place.
+    PieceFunction less_its_value_at(double place) const;
+    /// Less a line through its first point, as steep as this.
+    PieceFunction less_a_line(double slope) const;
+    double value(double place) const;
+    double slope(double place) const;
+    /// The largest magnitude of its slope, looked for at some places of each piece; and how far its values are apart there.
+    double steepest() const;
+    double range() const;
 
     /// The first point behind which it has no finite numbers.
     std::optional<std::size_t> not_finite() const;
@@ -41,8 +53,14 @@ public:
 private:
     std::vector<PieceTable::Piece> pieces_;
     std::vector<int> first_;
-    double high_;
+    double high_, advance_ = 0;
     bool repeats_;
+
+    void find_cells();
+    /// The piece of a place, how far behind its beginning that is, and how often the function has repeated there.
+    struct At { PieceTable::Piece const* piece; double u, times; };
+    At at(double place) const;
+    template <class See> void look_at_pieces(See const& see) const;
 };
 
 }  // namespace slideway

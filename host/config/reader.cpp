@@ -153,6 +153,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     warn_of_idle_sources(reading);
     read_integrator(reading);
     read_recording(reading);
+    check_profile(reading, runs_to_end(scene.study) ? scene.integrator.end_time : run_length(scene).longest);
     warn_of_unusual(reading);
     prepare_sampler(scene);
     return scene;

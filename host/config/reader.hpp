@@ -52,6 +52,12 @@ InputFile read_file_beside(Node const& node, std::string const& scene);
 /// A field of its row for messages: `members.csv:3: name is "text" (…); …`.
 Node field_node(CsvReader const& table, std::string name, std::string text);
 
+/// [drive]: Scene::drive and Parts::drive, and the mechanism whose crank turns freely; needs the mechanism.
+void read_drive(Reading& reading);
+/// What follows from a profile, once the numbers are known.
+void finish_drive(Scene& scene);
+/// Refuses a profile that ends before the run.  @param longest of a member [s]
+void check_profile(Reading const& reading, double longest);
 /// [load.<name>]: Scene::loads, and the keys of their numbers; needs the mechanism.
 void read_loads(Reading& reading);
 /// [modules], and which mechanism and law a scene names: modules that they are of are opened, and their keys are known from here on.

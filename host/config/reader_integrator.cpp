@@ -138,7 +138,7 @@ void read_integrator(Reading& reading) {
     if (!reading.given("integrator.atol")) settings.atol = atol_per_rtol * settings.rtol;
     // A sweep goes by its fastest drive, a free crank by the speed that it starts with.
     Parts driven = scene.parts;
-    driven.free_crank = false;
+    driven.drive = {};
     double const period = scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(driven, scene.inputs);
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;

@@ -22,7 +22,7 @@ namespace slideway {
 namespace {
 
 /// Units of what a table is read over, in the order of load_arguments, and those that its values may come to.
-constexpr std::string_view argument_units[] = {"rad", "s", "m", "m/s"}, value_units[] = {"1", "N", "N m", "Pa", "N/m", "N s/m", "m/s2"};
+constexpr std::string_view argument_units[] = {"rad", "s", "m", "m/s", "rad/s"}, value_units[] = {"1", "N", "N m", "Pa", "N/m", "N s/m", "m/s2"};
 
 /// How numbers of a column become SI ones.
 UnitFactor si_factor(Node const& header, std::span<std::string_view const> units) {
@@ -37,7 +37,8 @@ UnitFactor si_factor(Node const& header, std::span<std::string_view const> units
 /// Rows of two columns of a table.
 class TwoColumns {
 public:
-    TwoColumns(CsvReader& rows, Node const& asking, std::string_view argument, std::string_view argument_unit, std::string_view value)
+    TwoColumns(CsvReader& rows, Node const& asking, std::string_view argument, std::string_view argument_unit,
+               std::span<std::string_view const> value_units, std::string_view value)
         : rows_(rows), argument_(column(asking, argument)), value_(column(asking, value)),
           argument_factor_(si_factor(cell(argument_), {&argument_unit, 1})), value_factor_(si_factor(cell(value_), value_units)) {}
 
@@ -73,6 +74,56 @@ private:
 };
 
 constexpr std::size_t most_rows = 1'000'000;
+
+/// A period of the crank's angle is of whole turns, of a four-stroke engine two.
+void check_turns(TwoColumns& columns, std::string const& name, TableKind const& kind) {
+    if (kind.argument != "crank_angle" || !kind.repeats) return;
+    double const turns = (columns.places.back() - columns.places.front()) / (2 * std::numbers::pi), whole = std::round(turns);
+    if (whole >= 1 && std::abs(turns - whole) < 1e-6) {
+        // To the last bit, that nothing drifts.
+        columns.places.back() = columns.places.front() + 2 * std::numbers::pi * whole;
+        return;
+    }
+    throw SceneError(fmt::format("{}:{}: crank_angle ends {:.6g} turns behind its first row (a period is of whole turns); end it there, {}", name,
+                                 columns.lines.back(), turns, turns > 50 ? "or give its unit in the header, as crank_angle [deg]" : "or set repeats = false"));
+}
+
+}  // namespace
+
+LoadTable read_table_of(Node const& file, Node const& column, std::string const& scene, TableKind const& kind) {
+    LoadTable table;
+    InputFile input = read_file_beside(file, scene);
+    table.path = input.path;
+    table.checksum = fnv1a(input.bytes);
+    table.column = read_text_value(column);
+    table.interpolation = kind.interpolation;
+    std::istringstream in(std::move(input.bytes));
+    CsvReader rows(in, input.name);
+    if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
+    TwoColumns columns(rows, column, kind.argument, kind.argument_unit, kind.value_units, table.column);
+    while (rows.next()) {
+        if (columns.places.size() == most_rows) rows.fail(fmt::format("a table has at most {} rows; thin it out", most_rows));
+        columns.add_row();
+    }
+    table.rows = columns.places.size();
+    if (auto const fault = PieceFunction::fault_of(columns.places, columns.values, kind.repeats && !kind.advances)) {
+        int const line = columns.lines.empty() ? rows.line() : columns.lines[fault->point];
+        throw SceneError(fmt::format("{}:{}: {} ({}); {}", input.name, line, columns.lines.size() < 2 ? "the table is too short" : kind.argument,
+                                     fault->reason, fault->advice));
+    }
+    check_turns(columns, input.name, kind);
+    if (kind.repeats && !kind.advances) columns.values.back() = columns.values.front();
+    auto const function = std::make_shared<PieceFunction const>(columns.places, columns.values, kind.interpolation, kind.repeats);
+    if (auto const steep = function->not_finite())
+        throw SceneError(fmt::format("{}:{}: {} (next to another row it has no finite slope); move it, or remove it", input.name, columns.lines[*steep],
+                                     kind.argument));
+    table.function = function;
+    table.span = columns.places.back() - columns.places.front(), table.narrowest = table.span;
+    for (std::size_t i = 1; i < table.rows; ++i) table.narrowest = std::min(table.narrowest, columns.places[i] - columns.places[i - 1]);
+    return table;
+}
+
+namespace {
 
 class LoadReader {
 public:
@@ -141,46 +192,8 @@ private:
     }
 
     void read_file(Node const& file, std::size_t over, bool repeats) {
-        LoadTable& table = row_.table;
-        InputFile input = read_file_beside(file, scene_.path);
-        table.path = input.path;
-        table.checksum = fnv1a(input.bytes);
-        table.column = read_text_value(*node_.find("column"));
-        std::istringstream in(std::move(input.bytes));
-        CsvReader rows(in, input.name);
-        if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
-        TwoColumns columns(rows, *node_.find("column"), load_arguments[over], argument_units[over], table.column);
-        while (rows.next()) {
-            if (columns.places.size() == most_rows) rows.fail(fmt::format("a table of a load has at most {} rows; thin it out", most_rows));
-            columns.add_row();
-        }
-        table.rows = columns.places.size();
-        if (auto const fault = PieceFunction::fault_of(columns.places, columns.values, repeats)) {
-            int const line = columns.lines.empty() ? rows.line() : columns.lines[fault->point];
-            throw SceneError(fmt::format("{}:{}: {} ({}); {}", input.name, line,
-                                         columns.lines.size() < 2 ? "the table is too short" : load_arguments[over], fault->reason, fault->advice));
-        }
-        check_turns(columns, input.name, over, repeats);
-        auto const function = std::make_shared<PieceFunction const>(columns.places, columns.values, table.interpolation, repeats);
-        if (auto const steep = function->not_finite())
-            throw SceneError(fmt::format("{}:{}: {} (next to another row the load has no finite slope); move it, or remove it", input.name,
-                                         columns.lines[*steep], load_arguments[over]));
-        table.function = function;
-        table.span = columns.places.back() - columns.places.front(), table.narrowest = table.span;
-        for (std::size_t i = 1; i < table.rows; ++i) table.narrowest = std::min(table.narrowest, columns.places[i] - columns.places[i - 1]);
-    }
-
-    /// A period of the crank's angle is of whole turns, of a four-stroke engine two.
-    static void check_turns(TwoColumns& columns, std::string const& name, std::size_t over, bool repeats) {
-        if (load_arguments[over] != "crank_angle" || !repeats) return;
-        double const turns = (columns.places.back() - columns.places.front()) / (2 * std::numbers::pi), whole = std::round(turns);
-        if (whole >= 1 && std::abs(turns - whole) < 1e-6) {
-            // To the last bit, that nothing drifts.
-            columns.places.back() = columns.places.front() + 2 * std::numbers::pi * whole;
-            return;
-        }
-        throw SceneError(fmt::format("{}:{}: crank_angle ends {:.6g} turns behind its first row (a period is of whole turns); end it there, {}", name,
-                                     columns.lines.back(), turns, turns > 50 ? "or give its unit in the header, as crank_angle [deg]" : "or set repeats = false"));
+        Interpolation const interpolation = row_.table.interpolation;
+        row_.table = read_table_of(file, *node_.find("column"), scene_.path, {load_arguments[over], argument_units[over], value_units, repeats, interpolation});
     }
 
     Node const& node_;

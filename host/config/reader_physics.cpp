@@ -128,11 +128,13 @@ void read_modules(Reading& reading) {
 
 void read_physics(Reading& reading) {
     read_mechanism(reading);
+    read_drive(reading);
     read_loads(reading);
     Scene& scene = reading.scene;
     Parts& parts = scene.parts;
     scene.inputs = with_presets(scene.inputs, parts);
     read_numbers(reading);
+    finish_drive(scene);
     Node const* const restitution = reading.given("contact.restitution");
     if (needs_restitution(parts) || (restitution != nullptr && counts_for(*find_key("contact.restitution"), parts))) {
         parts.damping = Damping::restitution;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/config/drive.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/scene_text.hpp"
@@ -123,8 +124,26 @@ std::string folders(Scene const& scene, Setting const&) {
 }
 
 std::string mechanism(Scene const& scene, Setting const&) {
-    return fmt::format("\"{}\"{}", info(scene.parts.mechanism).name, source_comment(module_of(scene.parts.mechanism)));
+    return fmt::format("\"{}\"{}", kind_of(scene.parts.mechanism), source_comment(module_of(scene.parts.mechanism)));
 }
+
+std::string drive_table(Scene const& scene, Setting const&) {
+    LoadTable const& table = scene.drive->table;
+    return file_text(table.path, table.rows, table.checksum);
+}
+std::string drive_column(Scene const& scene, Setting const&) { return toml_string(scene.drive->table.column); }
+std::string drive_argument(Scene const& scene, Setting const&) {
+    if (scene.parts.drive.by != DriveBy::torque) return {};
+    LoadArgument const over = scene.parts.drive.over;
+    return fmt::format("\"{}\"", load_arguments[static_cast<int>(over) - 1]);
+}
+std::string drive_gives(Scene const& scene, Setting const&) {
+    return scene.parts.drive.by == DriveBy::profile ? fmt::format("\"{}\"", profile_names[static_cast<int>(scene.drive->gives)]) : std::string();
+}
+std::string drive_interpolation(Scene const& scene, Setting const&) {
+    return fmt::format("\"{}\"", interpolation_names[static_cast<int>(scene.drive->table.interpolation)]);
+}
+std::string drive_repeats(Scene const& scene, Setting const&) { return fmt::format("{}", scene.parts.drive.table->repeats); }
 
 std::string law(Scene const& scene, Setting const&) {
     if (!info(scene.parts.mechanism).spatial && !scene.parts.rigid) return {};

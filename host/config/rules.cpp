@@ -77,7 +77,6 @@ using enum Known;
 constexpr KeyRule rows[] = {
     {mechanism, "contact.law", [](R r) { return rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, excludes,
      "the contacts of a {mechanism} give way", "use another law, or mechanism.kind = {rigid_mechanisms}"},
-    {mechanism, "mechanism.crank", [](R r) { return !info(r.scene.parts.mechanism).free_crank; }, foreign},
     {mechanism, "way", [](R r) { return !spatial(r); }, foreign},
     {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, foreign},
     {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r); }, excludes,
@@ -127,7 +126,7 @@ constexpr KeyRule rows[] = {
     {orbits, "study.transient_revolutions", at_rest, excludes, no_revolutions, "use study.Ttr instead"},
     {orbits, "study.revolutions", at_rest, excludes, no_revolutions, "use study.duration instead"},
     {orbits, "study.phase", [](R r) { return at_rest(r) && by_phase(r) && !is_sweep(r); }, cannot, no_angle, "give study.section"},
-    {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r) && r.scene.parts.free_crank; }, cannot, no_angle, "use crank = \"driven\""},
+    {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r) && r.scene.parts.drive.by != DriveBy::speed; }, cannot, no_angle, "use drive.kind = \"speed\", or a profile that repeats"},
     {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r); }, cannot, no_angle, "give the crank a speed"},
     {orbits, "study.rescalings_per_revolution", at_rest, excludes, no_revolutions, "use study.dt instead"},
     {orbits, "study.d0", no_exponents, idle, without_exponents},

@@ -34,6 +34,7 @@ inline constexpr std::string_view store_names[] = {"members", "statistics"};
 constexpr std::string_view name_of(Store store) { return store_names[static_cast<int>(store)]; }
 
 class SceneLoads;
+struct SceneDrive;
 
 /// A length of time: seconds, or revolutions of the member's own crank, periods of what drives it.
 struct Span {
@@ -107,6 +108,7 @@ struct Scene {
     Inputs inputs;  // as given; entries that follow others are NaN
     Parts parts;
     std::shared_ptr<SceneLoads const> loads;  // those of the parts; none: nullptr
+    std::shared_ptr<SceneDrive const> drive;  // the table of the parts' drive; none: nullptr
     IntegratorSettings integrator;  // end_time and max_step resolved
     StudyKind study = StudyKind::ensemble;
     ChaosSettings chaos;  // of the studies that ask for it

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "host/config/drive.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/resolved.hpp"
 #include "host/config/scene_text.hpp"
@@ -18,7 +19,6 @@ namespace {
 using Type = Setting::Type;
 using namespace study_sets;
 
-constexpr std::string_view crank_names[] = {"driven", "free"};
 constexpr std::string_view spacing_names[] = {"linear", "log"};
 constexpr std::string_view start_names[] = {"fresh", "continue"};
 constexpr auto method_names = [] {
@@ -36,6 +36,7 @@ constexpr StudySet with_exponents = lyapunov | sweep;
 
 template <auto member> constexpr Access of_integrator = at<&Scene::integrator, member>;
 template <auto member> constexpr Access of_chaos = at<&Scene::chaos, member>;
+bool has_drive_table(Scene const& scene) { return scene.drive != nullptr; }
 bool has_neighbours(Scene const& scene) { return scene.chaos.exponents > 0; }
 bool has_one_neighbour(Scene const& scene) { return scene.chaos.exponents == 1; }
 
@@ -50,10 +51,24 @@ Settings settings() {
          .meaning = "folders, from the scene's, in which laws and mechanisms of one's own lie, that slideway compile -o made; its own folder needs no word",
          .preset = "[]", .value = {.text = resolved::folders}},
         {.name = "mechanism.kind", .type = Type::choice, .unit = "", .meaning = "which mechanism", .preset = "slider_crank", .what = "mechanism",
-         .known = mechanism_names, .value = {.text = resolved::mechanism}},
-        {.name = "mechanism.crank", .type = Type::choice, .unit = "", .meaning = "whether a planar crank is driven, or free from its start on",
-         .preset = "driven", .what = "crank", .choices = crank_names, .value = at<&Scene::parts, &Parts::free_crank>,
-         .is_said = [](Scene const& scene) { return info(scene.parts.mechanism).free_crank; }},
+         .known = mechanism_kinds, .value = {.text = resolved::mechanism}},
+        {.name = "drive.kind", .type = Type::choice, .unit = "",
+         .meaning = "what moves the mechanism: constant speed (of a carriage to and fro), a profile over time, a motor's torque, or nothing from the start on",
+         .preset = "speed", .what = "drive", .choices = drive_names,
+         .value = {.text = at<&Scene::parts, &Parts::drive, &DrivePlan::by>.text},
+         .is_said = [](Scene const& scene) { return scene.parts.drive.by != DriveBy::speed; }},
+        {.name = "drive.table", .type = Type::text, .unit = "", .meaning = "file of a table, beside the scene: the profile, or what a motor's torque is multiplied by",
+         .preset = "-", .value = {.text = resolved::drive_table}, .is_said = has_drive_table},
+        {.name = "drive.over", .type = Type::choice, .unit = "", .meaning = "the table's column that a motor's torque is read over", .preset = "-",
+         .what = "argument", .choices = drive_arguments, .value = {.text = resolved::drive_argument}, .is_said = has_drive_table},
+        {.name = "drive.column", .type = Type::text, .unit = "", .meaning = "the table's column of values", .preset = "-",
+         .value = {.text = resolved::drive_column}, .is_said = has_drive_table},
+        {.name = "drive.gives", .type = Type::choice, .unit = "", .meaning = "what the column of a profile is, of a crank or of a carriage", .preset = "-",
+         .what = "quantity", .choices = profile_names, .value = {.text = resolved::drive_gives}, .is_said = has_drive_table},
+        {.name = "drive.interpolation", .type = Type::choice, .unit = "", .meaning = "how the column runs between the rows of the table", .preset = "spline",
+         .what = "interpolation", .choices = interpolation_names, .value = {.text = resolved::drive_interpolation}, .is_said = has_drive_table},
+        {.name = "drive.repeats", .type = Type::truth, .unit = "", .meaning = "whether the table begins anew behind its last row",
+         .preset = "true over crank_angle, else false", .value = {.text = resolved::drive_repeats}, .is_said = has_drive_table},
         {.name = "contact.law", .type = Type::choice, .unit = "", .meaning = "contact law", .preset = info(default_law).name, .what = "contact law",
          .known = contact_law_names, .value = {.text = resolved::law}},
         {.name = "friction.enabled", .type = Type::truth, .unit = "", .meaning = "whether there is friction",
@@ -189,7 +204,7 @@ std::vector<Setting> with_physics(Settings rows) {
                        .value = {.text = resolved::number}, .physics = &key});
     }
     std::ranges::copy(load_settings(), std::back_inserter(all));
-    static constexpr std::string_view tables[] = {"",        "modules",  "mechanism", "joint", "material",   "way",
+    static constexpr std::string_view tables[] = {"",        "modules",  "mechanism", "drive", "joint", "material",   "way",
                                                   "contact", "friction", "initial",   "load",  "integrator", "study"};
     std::ranges::stable_sort(all, {}, [](Setting const& row) { return std::ranges::find(tables, row.table()) - tables; });
     return all;

@@ -40,6 +40,7 @@ BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, 
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     char const* const lack = !mechanism.on_cards   ? "the kernels for cards are of slider_crank alone"
                              : scene.parts.rigid ? "the kernels for cards have no rigid contacts"
+                             : scene.parts.drive.by != DriveBy::speed ? "the kernels for cards know no drive but constant speed"
                              : scene.parts.loads.count > 0 ? "the kernels for cards have no loads"
                              : module_of(scene.parts.law) != nullptr ? "the kernels for cards have no laws of modules"
                                                  : nullptr;

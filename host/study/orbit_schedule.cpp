@@ -98,7 +98,9 @@ OrbitSchedule of_crossings(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     OrbitSchedule schedule;
     schedule.sections = true;
-    schedule.crossings = {crossings_of(scene), chaos.section.direction, chaos.section.index, chaos.section.level, chaos.max_crossings};
+    bool const of_state = chaos.section.on == SectionSurface::On::state;
+    bool const turns = of_state && info(scene.parts.mechanism).state[chaos.section.index] == Series::crank_angle;
+    schedule.crossings = {crossings_of(scene), chaos.section.direction, turns, chaos.section.index, chaos.section.level, chaos.max_crossings};
     schedule.timing = [parts = scene.parts, transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
         double const period = drive_period(parts, inputs), from = transient.seconds(period);
         return MemberClock{from + span.seconds(period), from, 0};

@@ -19,7 +19,7 @@ public:
     SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Results<Model>& results, Stepper const& stepper,
                                 Attempt<Model, Real> const& whole, Mask<Real> accepted) {
         auto& c = pack.state.course;
-        Surface const surface{pack, stepper, results.crossings(), whole.step};
+        Surface const surface{pack, stepper, results.crossings(), whole.step, nearest_turn(results.crossings(), c.y, whole.end)};
         Real const zero(0.0), end = c.t + whole.step;
         auto const recorded = accepted & (end > pack.state.constants.first_stop);
         Span span;
@@ -55,9 +55,10 @@ private:
         Stepper const& stepper;  // that made the step
         CrossingPlan const& plan;
         Real const& whole;  // the step that is searched
+        Real level;
 
         SLIDEWAY_HD Real value(Real t, Real const* state) const {
-            if (plan.on == CrossingPlan::On::state) return state[plan.index] - Real(plan.level);
+            if (plan.on == CrossingPlan::On::state) return state[plan.index] - level;
             auto const& p = pack.state.constants.parameters;
             return pack.model.gap(t, state, p, plan.on == CrossingPlan::On::gap_z, plan.index) - Real(plan.level);
         }
@@ -75,6 +76,14 @@ private:
             return select(steps, (value(t + ahead, moved) - value_here) / select(steps, ahead, Real(1.0)), Real(0.0));
         }
     };
+
+    /// The level of an angle that a step may cross: the turn of it that is nearest to the step's middle.
+    SLIDEWAY_FN static Real nearest_turn(CrossingPlan const& plan, Real const* start, Real const* end) {
+        Real const level(plan.level);
+        if (!plan.turns) return level;
+        Real const turn(6.283185307179586), middle = Real(0.5) * (start[plan.index] + end[plan.index]);
+        return fma(turn, round_even((middle - level) / turn), level);
+    }
 
     /// The surface's values at the ends of the step, and their slopes per step.
     struct Span { Real v0, s0, v1, s1; };

@@ -5,16 +5,17 @@
 namespace slideway {
 
 /// What a table of a load is read over.
-enum class LoadArgument { nothing, crank_angle, time, x, vx };
+enum class LoadArgument { nothing, crank_angle, time, x, vx, crank_speed };
 
-/// A function in cubic pieces: value + u (slope + u (square + u cube)) of u beyond the beginning of a piece.  Memory that the host owns.
+/// A function in pieces: value + u (slope + u (square + u (cube + u fourth))) of u beyond the beginning of a piece.  Memory that the host owns.
 struct PieceTable {
-    struct Piece { double from, value, slope, square, cube; };
+    struct Piece { double from, value, slope, square, cube, fourth = 0; };
 
     Piece const* pieces = nullptr;  // [count], in the order of their beginnings
     int count = 0;
     double low = 0, high = 0;  // it goes from here to there: beyond them it repeats, or stays as it is at the nearer end
     bool repeats = false;
+    double advance = 0;  // what it is larger by each time that it repeats
     int const* first = nullptr;  // [cells]: of equal parts of [low, high) the piece that holds the beginning
     int cells = 0;
     double cells_per_unit = 0;  // cells/(high − low)

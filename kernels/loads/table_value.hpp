@@ -6,16 +6,11 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A table's value and its slope.
-struct TablePoint { double value, slope; };
+/// A table's value and its first three derivatives.
+struct TablePoint { double value, slope, bend, jerk; };
 
-/// At one place.  NaN at what is no number.
-SLIDEWAY_HD inline TablePoint table_point(PieceTable const& table, double at) {
-    if (!(at - at == 0)) return {at - at, at - at};
-    bool const inside = table.repeats || (at >= table.low && at <= table.high);
-    if (table.repeats) at = fnma(::floor((at - table.low) / (table.high - table.low)), table.high - table.low, at);
-    // Of places so far away that nothing is known of their phase, too.
-    at = min(max(at, table.low), table.high);
+/// The piece of a table that a place within it is in.
+SLIDEWAY_HD inline PieceTable::Piece const& piece_at(PieceTable const& table, double at) {
     int const found = static_cast<int>((at - table.low) * table.cells_per_unit), cell = found < table.cells ? found : table.cells - 1;
     int piece = table.first[cell], last = cell + 1 < table.cells ? table.first[cell + 1] : table.count - 1;
     while (piece < last) {
@@ -26,10 +21,26 @@ SLIDEWAY_HD inline TablePoint table_point(PieceTable const& table, double at) {
     // Beginnings of cells are rounded: the piece may begin a hair behind, or the next one before.
     while (piece + 1 < table.count && table.pieces[piece + 1].from <= at) ++piece;
     while (piece > 0 && table.pieces[piece].from > at) --piece;
-    auto const& p = table.pieces[piece];
-    double const u = at - p.from;
-    double const slope = fma(u, fma(3 * u, p.cube, 2 * p.square), p.slope);
-    return {fma(u, fma(u, fma(u, p.cube, p.square), p.slope), p.value), inside ? slope : 0.0};
+    return table.pieces[piece];
+}
+
+/// At one place.  NaN at what is no number.
+SLIDEWAY_HD inline TablePoint table_point(PieceTable const& table, double at) {
+    if (!(at - at == 0)) return {at - at, at - at, at - at, at - at};
+    bool const inside = table.repeats || (at >= table.low && at <= table.high);
+    double times = 0;
+    if (table.repeats) {
+        times = ::floor((at - table.low) / (table.high - table.low));
+        at = fnma(times, table.high - table.low, at);
+    }
+    // Of places so far away that nothing is known of their phase, too.
+    at = min(max(at, table.low), table.high);
+    auto const& p = piece_at(table, at);
+    double const u = at - p.from, cube = fma(u, p.fourth, p.cube);
+    double const value = fma(times, table.advance, fma(u, fma(u, fma(u, cube, p.square), p.slope), p.value));
+    if (!inside) return {value, 0, 0, 0};
+    double const slope = fma(u, fma(u, fma(u, 4 * p.fourth, 3 * p.cube), 2 * p.square), p.slope);
+    return {value, slope, fma(u, fma(12 * u, p.fourth, 6 * p.cube), 2 * p.square), fma(24 * u, p.fourth, 6 * p.cube)};
 }
 
 /// The values of a table in all lanes.  Lanes look theirs up one by one: pieces lie anywhere.

@@ -18,7 +18,8 @@ struct CarriageBase : DrivenBase {
 };
 
 /// The rig of the paper's experiment (Qian et al. 2020, section 2; model.md 7): from x = 0 at +v for T_s = stroke/v, turned round by
-/// v cos(π τ/t_r) within t_r, back likewise, and so on.  Position, velocity and acceleration are continuous after the start.
+/// v cos(π τ/t_r) within t_r, back likewise, and so on.  Position, velocity and acceleration are continuous after the start.  Or as a
+/// profile says.
 struct CarriageDrive : DrivenGuide<CarriageDrive> {
     using Base = CarriageBase;
     static constexpr bool is_free = false;
@@ -26,14 +27,18 @@ struct CarriageDrive : DrivenGuide<CarriageDrive> {
         auto info = spatial_slider_info();
         info.name = "carriage";
         info.meaning = "slider moved to and fro along the way at constant speed, as in the paper's experiment";
-        info.keys |= groups_of(KeyGroup::carriage);
+        info.keys |= groups_of(KeyGroup::carriage, KeyGroup::drive);
         info.drive = DriveKind::carriage;
         return info;
     }();
 
     /// @param t time [s], at least 0.
     template <class Real>
-    SLIDEWAY_FN static AlongWay<Real> motion(Real t, Real const*, SliderParameters<Real> const& p) {
+    SLIDEWAY_FN static AlongWay<Real> motion(Real t, Real const*, SliderParameters<Real> const& p, DrivePlan const& drive) {
+        if (drive.by == DriveBy::profile) {
+            auto const given = profile_motion(*drive.table, t);
+            return {p.motor.scale * given.place, p.motor.scale * given.velocity, p.motor.scale * given.acceleration};
+        }
         Real const zero(0.0), half(0.5);
         // Half periods done; whether the last bit of t counts as the end of one or the start of the next makes no difference.
         Real const strokes = round_even(fma(t, p.stroke_rate, negated(half)));

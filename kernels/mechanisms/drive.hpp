@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/mechanisms/crank_motion.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/guided_centre.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
@@ -14,15 +15,15 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> struct AlongWay { Real x, vx, ax; };
 
 /// What guides a slider without crank and rod: M u'' = F_c + M g⃗, of which x'' is given where a drive moves it (model.md 7).
-/// @tparam Drive has `motion(t, state, parameters)`, an AlongWay, and `is_free`: nothing drives it, x and vx are numbers 10 and 11 of the
+/// @tparam Drive has `motion(t, state, parameters, drive)`, an AlongWay, and `is_free`: nothing drives it, x and vx are numbers 10 and 11 of the
 /// state and the forces give its acceleration.
 template <class Drive> struct DrivenGuide {
     template <class Real> class At {
     public:
         Real x, vx;
 
-        SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, Faults<Real>&) {
-            auto along = Drive::motion(t, s, p);
+        SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive, Faults<Real>&) {
+            auto along = Drive::motion(t, s, p, drive);
             x = along.x;
             vx = along.vx;
             ax_ = along.ax;
@@ -73,8 +74,8 @@ template <class Drive> struct DrivenGuide {
     template <class Real> struct Constraint {
         Real x, vx;
 
-        SLIDEWAY_FN Constraint(Real t, Real const* s, SliderParameters<Real> const& p) {
-            auto const along = Drive::motion(t, s, p);
+        SLIDEWAY_FN Constraint(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive) {
+            auto const along = Drive::motion(t, s, p, drive);
             x = along.x;
             vx = along.vx;
         }
@@ -85,8 +86,8 @@ template <class Drive> struct DrivenGuide {
         SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const { return {force.y, force.z}; }
     };
 
-    template <class Real> SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p) {
-        return Drive::motion(t, s, p).x;
+    template <class Real> SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive) {
+        return Drive::motion(t, s, p, drive).x;
     }
 };
 

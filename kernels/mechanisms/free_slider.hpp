@@ -26,7 +26,7 @@ struct NoDrive : DrivenGuide<NoDrive> {
     }();
 
     /// Without the acceleration, which the forces give.
-    template <class Real> SLIDEWAY_FN static AlongWay<Real> motion(Real, Real const* s, SliderParameters<Real> const&) {
+    template <class Real> SLIDEWAY_FN static AlongWay<Real> motion(Real, Real const* s, SliderParameters<Real> const&, DrivePlan const&) {
         return {s[10], s[11], Real(0.0)};
     }
 };

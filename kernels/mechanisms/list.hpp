@@ -10,7 +10,9 @@
     row(carriage, Carriage, SliderBase)          \
     row(scotch_yoke, ScotchYoke, SliderBase)     \
     row(free_slider, FreeSlider, FreeSliderBase) \
-    row(planar_slider_crank, PlanarSliderCrank, PlanarBase)
+    row(planar_slider_crank, PlanarSliderCrank, PlanarBase) \
+    row(slider_crank_motor, SliderCrankMotor, CrankStateBase) \
+    row(scotch_yoke_motor, ScotchYokeMotor, CrankStateBase)
 
 namespace slideway {
 

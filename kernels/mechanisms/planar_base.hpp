@@ -31,12 +31,13 @@ struct PlanarBase {
         info.quantities =
             selections::all_quantities & ~selections::apex_quantities & ~selections::sensor_quantities &
             ~selection_of(Quantity::switching_energy);
-        info.keys = groups_of(KeyGroup::slider, KeyGroup::smooth_friction, KeyGroup::planar, KeyGroup::crank, KeyGroup::links, KeyGroup::elastic,
+        info.keys = groups_of(KeyGroup::slider, KeyGroup::smooth_friction, KeyGroup::planar, KeyGroup::crank, KeyGroup::links, KeyGroup::turning,
+                              KeyGroup::drive, KeyGroup::elastic,
                               KeyGroup::hertz, KeyGroup::point_damping, KeyGroup::restitution);
         info.drive = DriveKind::crank;
         info.spatial = false;
         info.prescribed = 1u << 0 | 1u << 3;  // angle and speed of a driven crank
-        info.free_crank = true;
+        info.may_turn_freely = true;
         return info;
     }();
     template <class Real> using Parameters = PlanarParameters<Real>;
@@ -68,8 +69,8 @@ struct PlanarBase {
         s[0] = in.start_angle;
         s[1] = ::asin(sine);
         s[2] = in.pitch;
-        s[3] = in.crank_speed;
-        s[4] = (in.vy - in.crank_length * crank.cos * in.crank_speed) / (in.rod_length * ::sqrt(1 - sine * sine));
+        s[3] = start_speed(in);
+        s[4] = (in.vy - in.crank_length * crank.cos * start_speed(in)) / (in.rod_length * ::sqrt(1 - sine * sine));
         s[5] = in.wz;
     }
 

@@ -70,8 +70,8 @@ template <class Real> struct PlanarCorners {
 
 /// Gap of a corner: its penetration negated [m].
 template <class Real>
-SLIDEWAY_FN Real planar_gap(Real t, Real const* s, PlanarParameters<Real> const& p, bool free_crank, Apex corner) {
-    auto const crank = sincos(free_crank ? s[0] : fma(p.crank_speed, t, p.start_angle));
+SLIDEWAY_FN Real planar_gap(Real t, Real const* s, PlanarParameters<Real> const& p, DrivePlan const& drive, Apex corner) {
+    auto const crank = sincos(planar_crank(drive, t, s, p).place);
     auto const tilt = sincos(s[2]);
     Real const y = fma(p.crank_length, crank.sin, p.rod_length * sincos(s[1]).sin);
     Real const lift = p.half_length * tilt.sin, base = fma(p.half_height, tilt.versine, p.clearance);

@@ -2,6 +2,7 @@
 
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/math/vec3.hpp"
+#include "kernels/mechanisms/crank_motion.hpp"
 #include "kernels/mechanisms/planar_loads.hpp"
 #include "kernels/mechanisms/planar_parameters.hpp"
 #include "kernels/mechanisms/planar_report.hpp"
@@ -12,18 +13,31 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Angular accelerations of crank and rod, and what the equation of the crank lacks without them.
 template <class Real> struct PlanarLinkMotion { Real a1, a2, r1, m12; };
 
+/// Angle, speed and given acceleration of the crank.
+template <class Real>
+SLIDEWAY_FN GivenMotion<Real> planar_crank(DrivePlan const& drive, Real t, Real const* s, PlanarParameters<Real> const& p) {
+    if (drive.turns_freely()) return {s[0], s[3], Real(0.0)};
+    return driven_crank(drive, t, p);
+}
+
 /// Crank and rod, and their common end: the slider's centre.
 template <class Real> struct PlanarLinks {
-    Real w1, w2;
+    Real w1, w2, given;  // given: the acceleration of a driven crank
+    bool turns_freely;
     SinCos<Real> crank, rod;
     Real x1, y1, x2, y2;
     Real y, vx, vy;
     PlanarLoads<Real> loads;
+    Real motor;  // torque on a crank that turns freely [N m]
 
-    SLIDEWAY_FN PlanarLinks(Real t, Real const* s, PlanarParameters<Real> const& p, bool free_crank, LoadList const& list) {
-        w1 = free_crank ? s[3] : p.crank_speed;
+    SLIDEWAY_FN PlanarLinks(Real t, Real const* s, PlanarParameters<Real> const& p, DrivePlan const& drive, LoadList const& list)
+        : turns_freely(drive.turns_freely()) {
+        auto const motion = planar_crank(drive, t, s, p);
+        w1 = motion.velocity;
         w2 = s[4];
-        Real const angle = free_crank ? s[0] : fma(p.crank_speed, t, p.start_angle);
+        given = motion.acceleration;
+        Real const angle = motion.place;
+        motor = turns_freely ? motor_torque(drive, p.motor, t, angle, w1) : Real(0.0);
         crank = sincos(angle);
         rod = sincos(s[1]);
         x1 = p.crank_length * crank.cos;
@@ -34,12 +48,12 @@ template <class Real> struct PlanarLinks {
         vx = negated(fma(y1, w1, y2 * w2));
         vy = fma(x1, w1, x2 * w2);
         loads = PlanarLoads<Real>::none();
-        if (list.count > 0) loads = PlanarLoads<Real>::of(list, {angle, t, x1 + x2, vx}, w1, vy, s[2], s[5], p);
+        if (list.count > 0) loads = PlanarLoads<Real>::of(list, {angle, t, x1 + x2, vx, w1}, vy, s[2], s[5], p);
     }
 
     /// M(θ) θ'' = R: inertia of the links, gravity, loads, and the force of contacts on their common end.
-    SLIDEWAY_FN PlanarLinkMotion<Real> accelerations(Real of_contact_x, Real of_contact_y, PlanarParameters<Real> const& p, bool free_crank) const {
-        Real const zero(0.0), one(1.0);
+    SLIDEWAY_FN PlanarLinkMotion<Real> accelerations(Real of_contact_x, Real of_contact_y, PlanarParameters<Real> const& p) const {
+        Real const one(1.0);
         Real const cosine = fma(crank.cos, rod.cos, crank.sin * rod.sin);
         Real const sine = fms(crank.sin, rod.cos, crank.cos * rod.sin);
         Real const m12 = p.m12 * cosine, centrifugal = p.m12 * sine;
@@ -48,17 +62,17 @@ template <class Real> struct PlanarLinks {
         Real const pull_2 = fms(p.gravity_y, rod.cos, p.gravity_x * rod.sin);
         Real const r1 = fma(p.crank_moment, pull_1, fms(x1, fy, y1 * fx)) - centrifugal * (w2 * w2) + loads.crank_torque;
         Real const r2 = fma(p.rod_moment, pull_2, fms(x2, fy, y2 * fx)) + centrifugal * (w1 * w1);
-        if (!free_crank) return {zero, r2 / p.m22, r1, m12};
-        Real const scale = one / fms(p.m11, p.m22, m12 * m12);
-        return {fms(p.m22, r1, m12 * r2) * scale, fms(p.m11, r2, m12 * r1) * scale, r1, m12};
+        if (!turns_freely) return {given, fnma(m12, given, r2) / p.m22, r1, m12};
+        Real const turning = r1 + motor, scale = one / fms(p.m11, p.m22, m12 * m12);
+        return {fms(p.m22, turning, m12 * r2) * scale, fms(p.m11, r2, m12 * turning) * scale, r1, m12};
     }
 
     /// What an impulse on their common end changes their rates by.
-    SLIDEWAY_FN PlanarLinkMotion<Real> response(Real fx, Real fy, PlanarParameters<Real> const& p, bool free_crank) const {
+    SLIDEWAY_FN PlanarLinkMotion<Real> response(Real fx, Real fy, PlanarParameters<Real> const& p) const {
         Real const zero(0.0), one(1.0);
         Real const m12 = p.m12 * fma(crank.cos, rod.cos, crank.sin * rod.sin);
         Real const r1 = fms(x1, fy, y1 * fx), r2 = fms(x2, fy, y2 * fx);
-        if (!free_crank) return {zero, r2 / p.m22, r1, m12};
+        if (!turns_freely) return {zero, r2 / p.m22, r1, m12};
         Real const scale = one / fms(p.m11, p.m22, m12 * m12);
         return {fms(p.m22, r1, m12 * r2) * scale, fms(p.m11, r2, m12 * r1) * scale, r1, m12};
     }
@@ -78,8 +92,7 @@ template <class Real> struct PlanarLinks {
     }
 
     template <class Report>
-    SLIDEWAY_FN void tell(PlanarLinkMotion<Real> const& motion, Real w3, PlanarParameters<Real> const& p, bool free_crank,
-                          Report& report) const {
+    SLIDEWAY_FN void tell(PlanarLinkMotion<Real> const& motion, Real w3, PlanarParameters<Real> const& p, Report& report) const {
         Real const zero(0.0), half(0.5);
         report.x = x1 + x2;
         report.y = y;
@@ -87,7 +100,7 @@ template <class Real> struct PlanarLinks {
         report.vy = vy;
         report.acceleration = centre_acceleration(motion);
         report.top = report.front = zero;  // sensors that it has not
-        Real const drive = free_crank ? zero : fms(motion.m12, motion.a2, motion.r1);
+        Real const drive = turns_freely ? motor : fma(p.m11, given, fms(motion.m12, motion.a2, motion.r1));
         report.crank_torque = report.drive_torque = drive;  // the crank's weight is in the equations
         report.crank_power = drive * w1;
         report.load_power = loads.power;

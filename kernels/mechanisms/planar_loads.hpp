@@ -15,8 +15,8 @@ template <class Real> struct PlanarLoads {
 
     SLIDEWAY_FN static PlanarLoads none() { return {Real(0.0), Real(0.0), Real(0.0), Real(0.0), Real(0.0)}; }
 
-    /// @param speed of the crank  @param vy of the slider's centre  @param pitch, spin of the slider
-    SLIDEWAY_NOINLINE static PlanarLoads of(LoadList const& list, LoadArguments<Real> const& arguments, Real speed, Real vy, Real pitch, Real spin,
+    /// @param vy of the slider's centre  @param pitch, spin of the slider
+    SLIDEWAY_NOINLINE static PlanarLoads of(LoadList const& list, LoadArguments<Real> const& arguments, Real vy, Real pitch, Real spin,
                                             PlanarParameters<Real> const& p) {
         auto const tilt = sincos(pitch);
         auto sum = none();
@@ -32,7 +32,7 @@ template <class Real> struct PlanarLoads {
             sum.torque = sum.torque + (numbers.scaled(load.torque[2]) + fms(arm_x, force.y, arm_y * force.x));
             sum.crank_torque = sum.crank_torque + numbers.scaled(load.crank_torque);
         }
-        sum.power = fma(sum.x, arguments.vx, sum.y * vy) + fma(sum.torque, spin, sum.crank_torque * speed);
+        sum.power = fma(sum.x, arguments.vx, sum.y * vy) + fma(sum.torque, spin, sum.crank_torque * arguments.crank_speed);
         return sum;
     }
 };

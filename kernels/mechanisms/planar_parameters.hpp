@@ -28,6 +28,7 @@ template <class Real> struct PlanarParameters {
     DampingParameters<Real> damping;
     FrictionParameters<Real> friction;
     Real load[most_load_numbers];  // numbers of the scene's loads
+    MotorParameters<Real> motor;   // and of its drive
     Real rate_scale;   // |ω|, at least 1 [1/s]
     Real restitution;  // e
 };
@@ -41,7 +42,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.rod_length = l2;
     p.crank_speed = in.crank_speed;
     p.start_angle = in.start_angle;
-    p.m11 = in.crank_inertia + (0.25 * m1 + m2 + m3) * l1 * l1;
+    p.m11 = in.crank_inertia + (0.25 * m1 + m2 + m3) * l1 * l1 + in.drive_inertia;
     p.m22 = in.rod_inertia + (0.25 * m2 + m3) * l2 * l2;
     p.m12 = (0.5 * m2 + m3) * l1 * l2;
     p.slider_inertia = in.slider_inertia_z;
@@ -58,6 +59,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.damping = {0, 0, restitution_slope(in.restitution), in.restitution};
     p.friction = friction_parameters(in);
     put_load_numbers(in, p.load);
+    p.motor = motor_parameters(in);
     p.rate_scale = max(::fabs(in.crank_speed), 1.0);
     p.restitution = in.restitution;
     return p;

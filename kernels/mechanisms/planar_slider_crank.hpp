@@ -25,7 +25,7 @@ struct PlanarSliderCrank : PlanarBase {
     SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, PlanarParameters<Real> const& p,
                                                      Memory<Real> const& memory, Conditions<Laws> const& block,
                                                      Real* rates, PlanarReport<Real>* report) {
-        PlanarLinks<Real> links(t, s, p, block.free_crank, block.loads);
+        PlanarLinks<Real> links(t, s, p, block.drive, block.loads);
         PlanarCorners<Real> corners(links, s, p);
         if constexpr (Full) report->contact.start(corners.depth, corners.rate);
         auto push = corners.push_of_nothing();
@@ -40,14 +40,14 @@ struct PlanarSliderCrank : PlanarBase {
             }
             if constexpr (Full) report->contact.tell(force, elastic, p.point.potential_share);
         }
-        auto motion = links.accelerations(push.fx, push.fy, p, block.free_crank);
+        auto motion = links.accelerations(push.fx, push.fy, p);
         rates[0] = links.w1;
         rates[1] = links.w2;
         rates[2] = s[5];
         rates[3] = motion.a1;
         rates[4] = motion.a2;
         rates[5] = (push.torque + links.loads.torque) / p.slider_inertia;
-        if constexpr (Full) links.tell(motion, s[5], p, block.free_crank, *report);
+        if constexpr (Full) links.tell(motion, s[5], p, *report);
         return Faults<Real>::none();
     }
 
@@ -55,7 +55,7 @@ struct PlanarSliderCrank : PlanarBase {
     template <class Real, class Laws>
     SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, PlanarParameters<Real> const& p,
                                       Conditions<Laws> const& block, Apex corner) {
-        return planar_gap(t, s, p, block.free_crank, corner);
+        return planar_gap(t, s, p, block.drive, corner);
     }
 
 private:

@@ -8,7 +8,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A pin on a crank of constant speed slides across the slider: x = r cos θ, θ = θ0 + ω t (docs/model.md 7).
+/// A pin on a driven crank slides across the slider: x = r cos θ (docs/model.md 7).
 struct ScotchYokeDrive : DrivenGuide<ScotchYokeDrive> {
     using Base = DrivenBase;
     static constexpr bool is_free = false;
@@ -16,16 +16,23 @@ struct ScotchYokeDrive : DrivenGuide<ScotchYokeDrive> {
         auto info = spatial_slider_info();
         info.name = "scotch_yoke";
         info.meaning = "slider moved along the way as the cosine of a crank's angle";
-        info.keys |= groups_of(KeyGroup::crank);
+        info.keys |= groups_of(KeyGroup::crank, KeyGroup::drive);
         info.drive = DriveKind::crank;
         return info;
     }();
 
     template <class Real>
-    SLIDEWAY_FN static AlongWay<Real> motion(Real t, Real const*, SliderParameters<Real> const& p) {
-        auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
-        Real const x = p.crank_length * crank.cos, speed = p.crank_speed;
-        return {x, negated(speed * p.crank_length) * crank.sin, negated(speed * speed) * x};
+    SLIDEWAY_FN static AlongWay<Real> motion(Real t, Real const*, SliderParameters<Real> const& p, DrivePlan const& drive) {
+        auto const motion = driven_crank(drive, t, p);
+        auto const turned = sincos(motion.place);
+        Real const x = p.crank_length * turned.cos, speed = motion.velocity;
+        AlongWay<Real> along{x, negated(speed * p.crank_length) * turned.sin, negated(speed * speed) * x};
+        if (drive.by == DriveBy::profile) along.ax = fnma(motion.acceleration * p.crank_length, turned.sin, along.ax);
+        return along;
+    }
+    template <class Real>
+    SLIDEWAY_FN static GivenMotion<Real> crank(Real t, Real const*, SliderParameters<Real> const& p, DrivePlan const& drive) {
+        return driven_crank(drive, t, p);
     }
 };
 

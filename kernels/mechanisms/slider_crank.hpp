@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/math/trigonometry.hpp"
+#include "kernels/mechanisms/crank_motion.hpp"
 #include "kernels/mechanisms/guided_centre.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
 #include "kernels/mechanisms/spatial_slider.hpp"
@@ -8,74 +9,143 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A crank pin A that turns at constant speed.
+/// A crank pin A.
 template <class Real> struct CrankPin {
     Real x, y, vx, vy;
 
-    SLIDEWAY_FN CrankPin(Real t, SliderParameters<Real> const& p) {
-        auto crank = sincos(fma(p.crank_speed, t, p.start_angle));
+    SLIDEWAY_FN CrankPin(GivenMotion<Real> const& turning, SliderParameters<Real> const& p) {
+        auto crank = sincos(turning.place);
         x = p.crank_length * crank.cos;
         y = p.crank_length * crank.sin;
-        vx = negated(p.crank_speed) * y;
-        vy = p.crank_speed * x;
+        vx = negated(turning.velocity) * y;
+        vy = turning.velocity * x;
     }
 };
 
-/// What a crank and a rod prescribe of the slider: x follows from D² + (y − y_A)² + z² = L².  The crank turns at constant speed.
+/// A rod of length L on a crank pin A, and the slider's centre at its other end: x follows from D² + (y − y_A)² + z² = L².
+template <class Real> class RodOnPin {
+public:
+    Real x, vx;
+
+    SLIDEWAY_FN RodOnPin(GivenMotion<Real> const& turning, bool accelerates, Real const* s, SliderParameters<Real> const& p, Faults<Real>& faults)
+        : pin_(turning, p) {
+        Real const y = s[0], z = s[1], vz = s[3];
+        Real const one(1.0);
+        Real const dy = y - pin_.y;
+        Real const reach = fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length));
+        faults.geometry = reach <= Real(0.0);  // NaN has another cause
+        d_ = sqrt(reach);
+        Real const inverse_d = d_ * (one / reach);  // root and division side by side
+        ky_ = negated(dy) * inverse_d;
+        kz_ = negated(z) * inverse_d;
+        Real const dvy = s[2] - pin_.vy;
+        Real const dd = fma(ky_, dvy, kz_ * vz);
+        Real const gamma = negated(fma(dvy, dvy, fma(vz, vz, dd * dd))) * inverse_d;
+        x = pin_.x + d_;
+        vx = pin_.vx + dd;
+        // a_Bx = aAx − κy aAy + γ + κy y'' + κz z''
+        Real const minus_speed_squared = negated(turning.velocity * turning.velocity);
+        aax_ = minus_speed_squared * pin_.x;
+        aay_ = minus_speed_squared * pin_.y;
+        if (accelerates) {
+            aax_ = fnma(turning.acceleration, pin_.y, aax_);
+            aay_ = fma(turning.acceleration, pin_.x, aay_);
+        }
+        bias_ = fnma(ky_, aay_, aax_) + gamma;
+    }
+
+protected:
+    /// Where its pin and the centre are, for the report.
+    SLIDEWAY_FN PointMotion<Real> pin_motion() const {
+        Real const zero(0.0);
+        return {{pin_.x, pin_.y, zero}, {pin_.vx, pin_.vy, zero}, {aax_, aay_, zero}};
+    }
+    /// Contact forces and weights on the centre.
+    SLIDEWAY_FN static Vec3<Real> weighed(Vec3<Real> const& force, SliderParameters<Real> const& p) {
+        return {fma(p.weighing_mass, p.gravity_x, force.x), fma(p.weighing_mass, p.gravity_y, force.y), force.z};
+    }
+    /// What y and z feel of them beside the rod's inertia, and `pull`, what is left along x.
+    struct Felt { Real y, z, pull; };
+    SLIDEWAY_FN Felt felt(Vec3<Real> const& force, SliderParameters<Real> const& p) const {
+        Real const pull = fnma(p.m_ab, aax_, fnma(p.mass, bias_, force.x));
+        return {fma(ky_, pull, fnma(p.m_ab, aay_, force.y)), fma(kz_, pull, force.z), pull};
+    }
+
+    CrankPin<Real> pin_;
+    Real d_, ky_, kz_;  // x − x_A [m], and κ = ∂x/∂(y, z)
+    Real aax_, aay_, bias_;
+};
+
+/// x alone.  Where the rod does not reach, as far as it is.
+template <class Real> SLIDEWAY_FN Real along_rod(Real angle, Real const* s, SliderParameters<Real> const& p) {
+    auto const crank = sincos(angle);
+    Real const dy = fnma(p.crank_length, crank.sin, s[0]);
+    Real const reach = fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length));
+    return fma(p.crank_length, crank.cos, sqrt(max(reach, Real(0.0))));
+}
+
+/// The same rod without what its masses do, for contacts that are stiff.
+template <class Real> class RodConstraint {
+public:
+    Real x, vx;
+
+    SLIDEWAY_FN RodConstraint(GivenMotion<Real> const& turning, Real const* s, SliderParameters<Real> const& p) : pin_(turning, p) {
+        Real const dy = s[0] - pin_.y;
+        Real const d = sqrt(fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length)));
+        Real const inverse_d = Real(1.0) / d;
+        ky_ = negated(dy) * inverse_d;
+        kz_ = negated(s[1]) * inverse_d;
+        x = pin_.x + d;
+        vx = pin_.vx + fma(ky_, s[2] - pin_.vy, kz_ * s[3]);
+    }
+
+    SLIDEWAY_FN void masses(SliderParameters<Real> const& p, SliderLinearisation<Real>& out) const {
+        Real const one(1.0);
+        out.mass_y = p.mass * fma(ky_, ky_, one);
+        out.mass_z = p.mass * fma(kz_, kz_, one);
+        out.mass_yz = p.mass * ky_ * kz_;
+    }
+
+    /// A force (f_x, f_y, f_z) gives f_y + κy f_x and f_z + κz f_x.
+    SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const {
+        return {fma(ky_, force.x, force.y), fma(kz_, force.x, force.z)};
+    }
+
+protected:
+    CrankPin<Real> pin_;
+    Real ky_, kz_;
+};
+
+/// What a crank and a rod prescribe of the slider, whose crank is driven.
 /// Source: Qian et al. 2020, section 4; equations as in model.md 6.
 struct CrankAndRod {
     using Base = SliderBase;
     static constexpr MechanismInfo info = [] {
         auto info = spatial_slider_info();
         info.name = "slider_crank";
-        info.meaning = "spatial slider-crank at constant crank speed, its slider with clearance on a rectangular way";
+        info.meaning = "spatial slider-crank, its slider with clearance on a rectangular way";
         info.series = selections::spatial_series;
         info.quantities = selections::all_quantities;
-        info.keys |= groups_of(KeyGroup::crank, KeyGroup::links, KeyGroup::rod_centre);
+        info.keys |= groups_of(KeyGroup::crank, KeyGroup::links, KeyGroup::rod_centre, KeyGroup::drive);
         info.drive = DriveKind::crank;
         info.on_cards = true;
         return info;
     }();
 
-    template <class Real> class At {
+    template <class Real> class At : public RodOnPin<Real> {
     public:
-        Real x, vx;
-
-        SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, Faults<Real>& faults) : pin_(t, p) {
-            Real const y = s[0], z = s[1], vz = s[3];
-            Real const one(1.0);
-            Real const dy = y - pin_.y;
-            Real const reach = fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length));
-            faults.geometry = reach <= Real(0.0);  // NaN has another cause
-            d_ = sqrt(reach);
-            Real const inverse_d = d_ * (one / reach);  // root and division side by side
-            ky_ = negated(dy) * inverse_d;
-            kz_ = negated(z) * inverse_d;
-            Real const dvy = s[2] - pin_.vy;
-            Real const dd = fma(ky_, dvy, kz_ * vz);
-            Real const gamma = negated(fma(dvy, dvy, fma(vz, vz, dd * dd))) * inverse_d;
-            x = pin_.x + d_;
-            vx = pin_.vx + dd;
-            // a_Bx = aAx − κy aAy + γ + κy y'' + κz z''
-            Real const minus_speed_squared = negated(p.crank_speed * p.crank_speed);
-            aax_ = minus_speed_squared * pin_.x;
-            aay_ = minus_speed_squared * pin_.y;
-            bias_ = fnma(ky_, aay_, aax_) + gamma;
-        }
+        SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive, Faults<Real>& faults)
+            : RodOnPin<Real>(driven_crank(drive, t, p), drive.by == DriveBy::profile, s, p, faults) {}
 
         /// m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
         SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& contact_force, SliderParameters<Real> const& p) const {
             Real const one(1.0);
-            Vec3<Real> force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
-                             fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
-            Real const pull = fnma(p.m_ab, aax_, fnma(p.mass, bias_, force.x));
-            Real const fy = fma(ky_, pull, fnma(p.m_ab, aay_, force.y));
-            Real const fz = fma(kz_, pull, force.z);
+            auto const f = this->felt(this->weighed(contact_force, p), p);
             Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
             Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
-            Real const ay = fms(kz2, fy, kyz * fz) * scale;
-            Real const az = fms(ky2, fz, kyz * fy) * scale;
-            return {fma(ky_, ay, fma(kz_, az, bias_)), ay, az};
+            Real const ay = fms(kz2, f.y, kyz * f.z) * scale;
+            Real const az = fms(ky2, f.z, kyz * f.y) * scale;
+            return {fma(ky_, ay, fma(kz_, az, this->bias_)), ay, az};
         }
 
         /// m Δu' − P along the rod, Δx' = κy Δy' + κz Δz'.
@@ -88,8 +158,8 @@ struct CrankAndRod {
                     .masses = {one, p.mass * ky2, p.mass * kyz, p.mass * kz2},
                     .inverse = {zero, kz2 * scale, negated(kyz * scale), ky2 * scale},
                     .unloaded = accelerations({zero, zero, zero}, p),
-                    .drive_x = pin_.vx,
-                    .drive_y = pin_.vy,
+                    .drive_x = this->pin_.vx,
+                    .drive_y = this->pin_.vy,
                     .driven = p.mass + p.m_ab};
         }
 
@@ -98,54 +168,25 @@ struct CrankAndRod {
         template <class Report>
         SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
                               Vec3<Real> const& contact_force, SliderParameters<Real> const& p, bool powers_alone, Report& report) const {
-            Real const zero(0.0);
-            PointMotion<Real> pin{{pin_.x, pin_.y, zero}, {pin_.vx, pin_.vy, zero}, {aax_, aay_, zero}};
-            report.fill_crank(pin, centre, d_, turning, contact_force, p, powers_alone);
+            report.fill_crank(this->pin_motion(), centre, this->d_, turning, contact_force, p, powers_alone);
         }
 
     private:
-        CrankPin<Real> pin_;
-        Real d_, ky_, kz_;  // x − x_A [m], and κ = ∂x/∂(y, z)
-        Real aax_, aay_, bias_;
+        using RodOnPin<Real>::ky_, RodOnPin<Real>::kz_;
     };
 
-    template <class Real> class Constraint {
-    public:
-        Real x, vx;
-
-        SLIDEWAY_FN Constraint(Real t, Real const* s, SliderParameters<Real> const& p) {
-            CrankPin<Real> pin(t, p);
-            Real const dy = s[0] - pin.y;
-            Real const d = sqrt(fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length)));
-            Real const inverse_d = Real(1.0) / d;
-            ky_ = negated(dy) * inverse_d;
-            kz_ = negated(s[1]) * inverse_d;
-            x = pin.x + d;
-            vx = pin.vx + fma(ky_, s[2] - pin.vy, kz_ * s[3]);
-        }
-
-        SLIDEWAY_FN void masses(SliderParameters<Real> const& p, SliderLinearisation<Real>& out) const {
-            Real const one(1.0);
-            out.mass_y = p.mass * fma(ky_, ky_, one);
-            out.mass_z = p.mass * fma(kz_, kz_, one);
-            out.mass_yz = p.mass * ky_ * kz_;
-        }
-
-        /// A force (f_x, f_y, f_z) gives f_y + κy f_x and f_z + κz f_x.
-        SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const {
-            return {fma(ky_, force.x, force.y), fma(kz_, force.x, force.z)};
-        }
-
-    private:
-        Real ky_, kz_;
+    template <class Real> struct Constraint : RodConstraint<Real> {
+        SLIDEWAY_FN Constraint(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive)
+            : RodConstraint<Real>(driven_crank(drive, t, p), s, p) {}
     };
 
-    /// Where the rod does not reach, as far as it is.
-    template <class Real> SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p) {
-        auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
-        Real const dy = fnma(p.crank_length, crank.sin, s[0]);
-        Real const reach = fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length));
-        return fma(p.crank_length, crank.cos, sqrt(max(reach, Real(0.0))));
+    template <class Real>
+    SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive) {
+        return along_rod(driven_crank(drive, t, p).place, s, p);
+    }
+    template <class Real>
+    SLIDEWAY_FN static GivenMotion<Real> crank(Real t, Real const*, SliderParameters<Real> const& p, DrivePlan const& drive) {
+        return driven_crank(drive, t, p);
     }
 };
 

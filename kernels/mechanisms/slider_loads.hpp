@@ -3,6 +3,7 @@
 #include "kernels/loads/load_list.hpp"
 #include "kernels/loads/table_value.hpp"
 #include "kernels/math/vec3.hpp"
+#include "kernels/mechanisms/crank_motion.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/real.hpp"
@@ -11,10 +12,18 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// What loads are read over in a state.
 template <class Real> struct LoadArguments {
-    Real crank_angle, time, x, vx;
+    Real crank_angle, time, x, vx, crank_speed;
 
     SLIDEWAY_FN Real of(LoadArgument over) const {
-        return over == LoadArgument::crank_angle ? crank_angle : over == LoadArgument::time ? time : over == LoadArgument::x ? x : vx;
+        switch (over) {
+            case LoadArgument::crank_angle: return crank_angle;
+            case LoadArgument::x: return x;
+            case LoadArgument::vx: return vx;
+            case LoadArgument::crank_speed: return crank_speed;
+            case LoadArgument::time:
+            case LoadArgument::nothing: break;
+        }
+        return time;
     }
 };
 
@@ -52,12 +61,12 @@ template <class Real> struct SliderLoads {
         return {{zero, zero, zero}, {zero, zero, zero}, zero, zero, zero};
     }
 
-    /// @param position, velocity of the slider's centre, along the axes of the ground
-    SLIDEWAY_NOINLINE static SliderLoads of(LoadList const& list, Real t, Vec3<Real> const& position, Vec3<Real> const& velocity,
+    /// @param crank angle and speed of the crank  @param position, velocity of the slider's centre, along the axes of the ground
+    SLIDEWAY_NOINLINE static SliderLoads of(LoadList const& list, Real t, GivenMotion<Real> const& crank, Vec3<Real> const& position, Vec3<Real> const& velocity,
                                             SliderTurning<Real> const& turning, SliderParameters<Real> const& p) {
         auto const& axes = turning.axes;
         auto const slider_velocity = to_slider(axes, velocity);
-        LoadArguments<Real> const arguments{fma(p.crank_speed, t, p.start_angle), t, position.x, velocity.x};
+        LoadArguments<Real> const arguments{crank.place, t, position.x, velocity.x, crank.velocity};
         auto sum = none();
         for (int i = 0; i < list.count; ++i) {
             Load const& load = list.loads[i];
@@ -75,14 +84,15 @@ template <class Real> struct SliderLoads {
             sum.power = sum.power + (dot(force, slider_velocity) + dot(torque, turning.omega));
             sum.crank_torque = sum.crank_torque + numbers.scaled(load.crank_torque);
         }
-        sum.crank_power = sum.crank_torque * p.crank_speed;
+        sum.crank_power = sum.crank_torque * crank.velocity;
         sum.power = sum.power + sum.crank_power;
         return sum;
     }
 
-    /// What a report tells of them, once it has told the rest: torque on the crank is not the drive's.
-    template <class Report> SLIDEWAY_FN void tell(Report& report) const {
+    /// What a report tells of them, once it has told the rest: torque on a driven crank is not the drive's.
+    template <class Report> SLIDEWAY_FN void tell(DrivePlan const& drive, Report& report) const {
         report.load_power = power;
+        if (drive.turns_freely()) return;
         report.crank_power = report.crank_power - crank_power;
         report.drive_torque = report.drive_torque - crank_torque;
     }

@@ -5,6 +5,7 @@
 #include "kernels/inputs.hpp"
 #include "kernels/joint/joint.hpp"
 #include "kernels/laws/restitution.hpp"
+#include "kernels/mechanisms/motor.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -33,6 +34,7 @@ template <class Real> struct SliderParameters {
     Vec3<Real> inverse_inertia;
     JointParameters<Real> joint;
     Real load[most_load_numbers];  // numbers of the scene's loads
+    MotorParameters<Real> motor;   // and of its drive
     // energy and torque only
     Real rod_mass;         // m_r [kg]
     Real rod_mass_center;  // f_r
@@ -131,6 +133,7 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
 
     p.joint.friction = friction_parameters(in);
     put_load_numbers(in, p.load);
+    p.motor = motor_parameters(in);
 
     p.rod_mass = in.rod_mass;
     p.rod_mass_center = center;

@@ -16,12 +16,12 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// vz φ ϑ ψ ωx ωy ωz, and x vx where nothing prescribes them.  Compiled once for all laws, with and without friction and a misaligned way:
 /// those are the Conditions's.
 /// @tparam Guide what moves the slider along the way.  It has `Base` (SliderBase, or what extends it), `info`, and
-///  - `At<Real>`, made of (t, state, parameters, faults): position and velocity along the way `x`, `vx`; `accelerations(force, p)`, of the
+///  - `At<Real>`, made of (t, state, parameters, drive, faults): position and velocity along the way `x`, `vx`; `accelerations(force, p)`, of the
 ///    slider's centre, `put_rates(acceleration, rates)` of what the state has beyond ten numbers, `tell(…)` of the report, and, for rigid joints,
 ///    `centre(p)`, the same as numbers;
-///  - `Constraint<Real>`, made of (t, state, parameters): `x`, `vx`, `masses(p, out)` of (vy, vz), and `project(force)`, what a force does to
+///  - `Constraint<Real>`, made of (t, state, parameters, drive): `x`, `vx`, `masses(p, out)` of (vy, vz), and `project(force)`, what a force does to
 ///    vy and vz.
-///  - `along(t, state, parameters)`: x alone, for a pose.
+///  - `along(t, state, parameters, drive)`: x alone, for a pose; `crank(…)` of them, if it has one: its angle and speed, for loads.
 template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     using Guide = Guide_;
     using typename Guide_::Base;
@@ -36,7 +36,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, Numbers<Real> const& p,
                                                      ContactMemory<Real> const& memory, Conditions<Laws> const& block,
                                                      Real* rates, SliderReport<Real>* report) {
-        if (block.loads.count > 0) return loaded_derivative<Full>(t, s, p, memory, block, rates, report);
+        if (!block.is_plain()) return loaded_derivative<Full>(t, s, p, memory, block, rates, report);
         return evaluate<Full, false>(t, s, p, memory, block, rates, report);
     }
 
@@ -45,7 +45,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     SLIDEWAY_NOINLINE static void linearise(Real t, Real const* s, Numbers<Real> const& p,
                                             ContactMemory<Real> const& memory, Conditions<Laws> const& block,
                                             SliderLinearisation<Real>& out) {
-        typename Guide::template Constraint<Real> const guide(t, s, p);
+        typename Guide::template Constraint<Real> const guide(t, s, p, block.drive);
         guide.masses(p, out);
         out.inertia = p.inertia;
         auto turning = SliderTurning<Real>::of(s);
@@ -72,25 +72,25 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     }
 
     /// Which apices touch, as a number: members of one pattern have the same work to do.
-    template <class Real>
-    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, Numbers<Real> const& p, bool misaligned) {
-        return slideway::contact_pattern(pose(t, s, p, misaligned), p.joint.geometry);
+    template <class Real, class Laws>
+    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, Numbers<Real> const& p, Conditions<Laws> const& block) {
+        return slideway::contact_pattern(pose(t, s, p, block), p.joint.geometry);
     }
 
     /// Mean speed, in units of c ω, at which the fastest of the apices that come into contact in a step has approached its face; 0 where
     /// none does.
-    template <class Real>
+    template <class Real, class Laws>
     SLIDEWAY_NOINLINE static Real approach_speed(Real t, Real const* s, Real step, Real const* end,
-                                                 Numbers<Real> const& p, bool misaligned) {
-        Real const way =
-            longest_approach(pose(t, s, p, misaligned), pose(t + step, end, p, misaligned), p.joint.geometry);
+                                                 Numbers<Real> const& p, Conditions<Laws> const& block) {
+        Real const way = longest_approach(pose(t, s, p, block), pose(t + step, end, p, block), p.joint.geometry);
         return way / (step * max(p.length_scale_y, p.length_scale_z) * p.rate_scale);
     }
 
     /// Acceleration [m/s²] of y and z, on the mean over a step, of a slider that follows a misaligned way: dy/dx and dz/dx of its axis times x''.
     template <class Real>
-    SLIDEWAY_NOINLINE static Translation<Real> way_bend(Real t, Real step, Real const* s, Numbers<Real> const& p) {
-        Real const half(0.5), start = Guide::along(t, s, p), middle = Guide::along(fma(half, step, t), s, p), end = Guide::along(t + step, s, p);
+    SLIDEWAY_NOINLINE static Translation<Real> way_bend(Real t, Real step, Real const* s, Numbers<Real> const& p, DrivePlan const& drive) {
+        auto const along = [&](Real at) { return Guide::along(at, s, p, drive); };
+        Real const start = along(t), middle = along(fma(Real(0.5), step, t)), end = along(t + step);
         auto const goes = step > Real(0.0);
         Real const safe = select(goes, step, Real(1.0)), bend = select(goes, Real(4.0) * ((start - middle) + (end - middle)) / (safe * safe), Real(0.0));
         auto const& axis = p.joint.way.x;
@@ -102,11 +102,11 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     template <class Real, class Laws>
     SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, Numbers<Real> const& p,
                                       Conditions<Laws> const& block, Apex apex) {
-        return negated(penetration(pose(t, s, p, block.misaligned_way), p.joint.geometry, apex));
+        return negated(penetration(pose(t, s, p, block), p.joint.geometry, apex));
     }
 
 private:
-    /// Under loads a function of its own: what a scene does not have is not even a place on the stack.
+    /// Under loads, or another drive, a function of its own: what a scene does not have is not even a place on the stack.
     template <bool Full, class Real, class Laws>
     SLIDEWAY_NOINLINE static Faults<Real> loaded_derivative(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
                                                             Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
@@ -116,7 +116,9 @@ private:
     SLIDEWAY_FN static Faults<Real> evaluate(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
                                              Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
         auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> guide(t, s, p, faults);
+        DrivePlan drive;
+        if constexpr (loaded) drive = block.drive;
+        typename Guide::template At<Real> guide(t, s, p, drive, faults);
         auto turning = SliderTurning<Real>::of(s);
         auto const& way = p.joint.way;
         Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
@@ -126,7 +128,8 @@ private:
         auto force = to_inertial(block.misaligned_way, wrench.force, way);
         [[maybe_unused]] SliderLoads<Real> loads;
         if constexpr (loaded) {
-            loads = SliderLoads<Real>::of(block.loads, t, position, velocity, turning, p);
+            loads = SliderLoads<Real>::of(block.loads, t, crank_of<Guide>(t, s, p, drive), position, velocity, turning, p);
+            if constexpr (requires { guide.turn(loads.crank_torque); }) guide.turn(loads.crank_torque);
             force = force + loads.force;
             wrench.torque = wrench.torque + from_slider(motion.axes, loads.torque);
         }
@@ -140,17 +143,17 @@ private:
         if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
         if constexpr (Full) {
             guide.tell({position, velocity, acceleration}, turning, force, p, block.powers_alone, *report);
-            if constexpr (loaded) loads.tell(*report);
+            if constexpr (loaded) loads.tell(drive, *report);
         }
         return faults;
     }
 
     /// Where the slider is in its joint; without its motion.
-    template <class Real>
-    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, bool misaligned) {
+    template <class Real, class Laws>
+    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, Conditions<Laws> const& block) {
         Real const zero(0.0);
         Vec3<Real> const still{zero, zero, zero};
-        return joint_motion(misaligned, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{Guide::along(t, s, p), s[0], s[1]},
+        return joint_motion(block.misaligned_way, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{Guide::along(t, s, p, block.drive), s[0], s[1]},
                             still, still, p.joint.way);
     }
 };

@@ -47,9 +47,9 @@ static inline StateNumbers start_of(MechanismInfo const& mechanism, Inputs const
         return state;
     }
     double const sine = (in.y - in.crank_length * std::sin(in.start_angle)) / in.rod_length;
-    double const rate = (in.vy - in.crank_length * in.crank_speed * std::cos(in.start_angle)) /
+    double const rate = (in.vy - in.crank_length * start_speed(in) * std::cos(in.start_angle)) /
                         (in.rod_length * std::sqrt((1 - sine) * (1 + sine)));
-    return {in.start_angle, std::asin(sine), in.pitch, in.crank_speed, rate, in.wz};
+    return {in.start_angle, std::asin(sine), in.pitch, start_speed(in), rate, in.wz};
 }
 
 /// Makes a member start in a state.  The planar rod is to point along the way: |θ2| < π/2.

@@ -76,12 +76,12 @@ template <class Mechanism, class Base, class Laws> struct MechanismModel : Mecha
     }
     template <class Real> SLIDEWAY_FN Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory) const {
         if (this->block.by_clocks) return HeldFace<Real>::pattern(memory);
-        return Mechanism::contact_pattern(t, state, p, this->block.misaligned_way);
+        return Mechanism::contact_pattern(t, state, p, this->block);
     }
     /// Acceleration of the equilibrium that steps of the stiff method are to follow, of each component of the state that is a place; 0 of others.
     template <class Real> SLIDEWAY_FN void bend(Real t, Real step, Real const* state, Parameters<Real> const& p, Real* of_state) const {
         if (!this->block.misaligned_way) return;
-        auto const way = Mechanism::way_bend(t, step, state, p);
+        auto const way = Mechanism::way_bend(t, step, state, p, this->block.drive);
         of_state[0] = way.y, of_state[1] = way.z;
     }
     template <class Real>
@@ -90,7 +90,7 @@ template <class Mechanism, class Base, class Laws> struct MechanismModel : Mecha
     }
     template <class Real>
     SLIDEWAY_FN Real approach_speed(Real t, Real const* state, Real step, Real const* end, Parameters<Real> const& p) const {
-        return Mechanism::approach_speed(t, state, step, end, p, this->block.misaligned_way);
+        return Mechanism::approach_speed(t, state, step, end, p, this->block);
     }
 };
 

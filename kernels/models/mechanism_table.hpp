@@ -23,9 +23,9 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
     Real (*gap)(Real, Real const*, Parameters const&, Block const&, Apex) = nullptr;
     // Of mechanisms with a linearisation and contact patterns.
     void (*linearise)(Real, Real const*, Parameters const&, Memory const&, Block const&, SliderLinearisation<Real>&) = nullptr;
-    Real (*contact_pattern)(Real, Real const*, Parameters const&, bool) = nullptr;
-    Real (*approach_speed)(Real, Real const*, Real, Real const*, Parameters const&, bool) = nullptr;
-    Translation<Real> (*way_bend)(Real, Real, Real const*, Parameters const&) = nullptr;
+    Real (*contact_pattern)(Real, Real const*, Parameters const&, Block const&) = nullptr;
+    Real (*approach_speed)(Real, Real const*, Real, Real const*, Parameters const&, Block const&) = nullptr;
+    Translation<Real> (*way_bend)(Real, Real, Real const*, Parameters const&, DrivePlan const&) = nullptr;
 
     template <class Mechanism> static constexpr MechanismFunctions of() {
         static_assert(finds_state<Base>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
@@ -42,8 +42,8 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
         functions.gap = &Mechanism::template gap<Real, Laws>;
         if constexpr (LanesOf<Base>::has_linearisation) {
             functions.linearise = &Mechanism::template linearise<Real, Laws>;
-            functions.contact_pattern = &Mechanism::template contact_pattern<Real>;
-            functions.approach_speed = &Mechanism::template approach_speed<Real>;
+            functions.contact_pattern = &Mechanism::template contact_pattern<Real, Laws>;
+            functions.approach_speed = &Mechanism::template approach_speed<Real, Laws>;
             functions.way_bend = &Mechanism::template way_bend<Real>;
         }
         return functions;
@@ -76,18 +76,18 @@ struct MechanismTable : Base, SignalLanes<Base, Signals>, ConditionsOfBlock<LawF
     }
     Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory) const {
         if (this->block.by_clocks) return HeldFace<Real>::pattern(memory);
-        return functions.contact_pattern(t, state, p, this->block.misaligned_way);
+        return functions.contact_pattern(t, state, p, this->block);
     }
     void bend(Real t, Real step, Real const* state, Parameters<Real> const& p, Real* of_state) const {
         if (!this->block.misaligned_way) return;
-        auto const way = functions.way_bend(t, step, state, p);
+        auto const way = functions.way_bend(t, step, state, p, this->block.drive);
         of_state[0] = way.y, of_state[1] = way.z;
     }
     Real gap(Real t, Real const* state, Parameters<Real> const& p, bool z_faces, int apex) const {
         return functions.gap(t, state, p, this->block, {z_faces, apex});
     }
     Real approach_speed(Real t, Real const* state, Real step, Real const* end, Parameters<Real> const& p) const {
-        return functions.approach_speed(t, state, step, end, p, this->block.misaligned_way);
+        return functions.approach_speed(t, state, step, end, p, this->block);
     }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/mechanisms/crank_states.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
 #include "kernels/observers/acceleration_record.hpp"
 #include "kernels/observers/energy_audit.hpp"
@@ -52,6 +53,7 @@ template <class Base> struct SpatialLanes : ContactLanes<Base> {
 
 template <> struct LanesOf<SliderBase> : SpatialLanes<SliderBase> {};
 template <> struct LanesOf<FreeSliderBase> : SpatialLanes<FreeSliderBase> {};
+template <> struct LanesOf<CrankStateBase> : SpatialLanes<CrankStateBase> {};
 
 /// What the lanes need of a mechanism that has signals of its own, or NoSignals.
 template <class Base, class Signals> struct SignalLanes : LanesOf<Base> {

@@ -21,6 +21,7 @@ template <class Real> struct RigidSliderParameters : SliderParameters<Real> { Re
 struct RigidConditions {
     bool friction = false, misaligned_way = false;
     LoadList loads;
+    DrivePlan drive;
     double slip_units = 1;          // slip scales
     bool integrands_alone = false;  // reports tell what is integrated, and nothing else
 
@@ -38,7 +39,7 @@ template <class Real> struct GuideFunctions {
     Derivative* lean;
     Derivative* full;
     JointPairs<Real> (*place)(Real, Real const*, Parameters const&, RigidConditions const&);
-    Real (*along)(Real, Real const*, Parameters const&);
+    Real (*along)(Real, Real const*, Parameters const&, DrivePlan const&);
 };
 
 /// @tparam Guide what moves the slider along the way (kernels/mechanisms/spatial_slider.hpp)
@@ -57,7 +58,7 @@ template <class Guide> struct RigidGuide {
 
     template <class Real> static JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidConditions const& block) {
         auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> const guide(t, s, p, faults);
+        typename Guide::template At<Real> const guide(t, s, p, block.drive, faults);
         JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
         take_up_loads(at, t, s, p, block);
         return at;
@@ -67,7 +68,7 @@ template <class Guide> struct RigidGuide {
     static Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
                                    RigidConditions const& block, Real* rates, RigidSliderReport<Real>* report) {
         auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> const guide(t, s, p, faults);
+        typename Guide::template At<Real> const guide(t, s, p, block.drive, faults);
         JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
         auto const loads = take_up_loads(at, t, s, p, block);
         RigidJointContact<Real>* contact = nullptr;
@@ -88,7 +89,7 @@ template <class Guide> struct RigidGuide {
         if constexpr (Full) {
             Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
             guide.tell({centre, velocity, acceleration}, at.turning, on.force, p, false, *report);
-            loads.tell(*report);
+            loads.tell(block.drive, *report);
         }
         faults.contact_domain = on.jammed;
         faults.geometry = faults.geometry | ((memory.begun == Real(0.0)) & (on.deepest > Real(1e-6) * p.length_scale_y));
@@ -100,12 +101,14 @@ template <class Guide> struct RigidGuide {
     SLIDEWAY_FN static SliderLoads<Real> take_up_loads(JointPairs<Real>& at, Real t, Real const* s, RigidSliderParameters<Real> const& p,
                                                        RigidConditions const& block) {
         if (block.loads.count == 0) return SliderLoads<Real>::none();
-        auto const loads = SliderLoads<Real>::of(block.loads, t, {at.x, s[0], s[1]}, at.velocity.linear, at.turning, p);
+        auto const loads = SliderLoads<Real>::of(block.loads, t, crank_of<Guide>(t, s, p, block.drive), {at.x, s[0], s[1]}, at.velocity.linear, at.turning, p);
         at.take_up(loads);
         return loads;
     }
 
-    template <class Real> static Real along(Real t, Real const* s, RigidSliderParameters<Real> const& p) { return Guide::along(t, s, p); }
+    template <class Real> static Real along(Real t, Real const* s, RigidSliderParameters<Real> const& p, DrivePlan const& drive) {
+        return Guide::along(t, s, p, drive);
+    }
 
     template <class Real>
     static constexpr GuideFunctions<Real> functions{&parameters, &derivative<false, Real>, &derivative<true, Real>, &place<Real>, &along<Real>};

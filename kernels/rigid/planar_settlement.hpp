@@ -23,8 +23,8 @@ template <class Real> class PlanarSettlement {
 public:
     using Parameters = PlanarParameters<Real>;
 
-    SLIDEWAY_HD PlanarSettlement(Parameters const& p, bool friction, bool free_crank, LoadList const& loads, Real located, Real end)
-        : p_(p), friction_(friction), free_crank_(free_crank), loads_(loads), located_(located), end_(end) {}
+    SLIDEWAY_HD PlanarSettlement(Parameters const& p, bool friction, DrivePlan const& drive, LoadList const& loads, Real located, Real end)
+        : p_(p), friction_(friction), drive_(drive), loads_(loads), located_(located), end_(end) {}
 
     SLIDEWAY_FN static ContactState<Real> state_of(HeldContact<Real> const& held, Parameters const& p, bool friction) {
         Real const zero(0.0);
@@ -40,9 +40,9 @@ public:
         auto const event = find_events(in, memory, contact);
         Mask<Real> const changed = event | (in & ((memory.held[0].side != zero) | (memory.held[1].side != zero)));
         if (none(changed)) return changed;
-        PlanarLinks<Real> links(t, s, p_, free_crank_, loads_);
+        PlanarLinks<Real> links(t, s, p_, drive_, loads_);
         links_ = &links;
-        PlanarStance<Real> const stance(links, sincos(s[2]), side_[0], side_[1], p_, free_crank_);
+        PlanarStance<Real> const stance(links, sincos(s[2]), side_[0], side_[1], p_);
         stance_ = &stance;
         spin_ = s[5];
         books_ = ImpactBooks<Real>::none();
@@ -55,7 +55,7 @@ public:
         hold(changed, state);
         put_back(changed, s, event, state);
         if (any(event)) last(event, t, state, memory);
-        if (free_crank_) s[3] = select(changed, links.w1, s[3]);
+        if (links.turns_freely) s[3] = select(changed, links.w1, s[3]);
         s[4] = select(changed, links.w2, s[4]);
         s[5] = select(changed, spin_, s[5]);
         books_.met = met_corners();
@@ -215,8 +215,8 @@ private:
             touching[i] = {Mask<Real>(state[i].closed | (event & near_[i])), mask_of<Real>(false), zero, zero};
         }
         auto const load = stance_->load(stance_->pair.solve(gap, {zero, zero}, touching));
-        auto const moved = links_->response(load.x, load.y, p_, free_crank_);
-        if (free_crank_) s[0] = select(in, s[0] + moved.a1, s[0]);
+        auto const moved = links_->response(load.x, load.y, p_);
+        if (links_->turns_freely) s[0] = select(in, s[0] + moved.a1, s[0]);
         s[1] = select(in, s[1] + moved.a2, s[1]);
         s[2] = select(in, s[2] + load.torque / p_.slider_inertia, s[2]);
     }
@@ -257,7 +257,7 @@ private:
     /// Of the contacts without forces in them.
     SLIDEWAY_HD PairOf<Real> free_acceleration() const {
         Real const zero(0.0);
-        auto centre = links_->centre_acceleration(links_->accelerations(zero, zero, p_, free_crank_));
+        auto centre = links_->centre_acceleration(links_->accelerations(zero, zero, p_));
         return stance_->acceleration(centre.x, centre.y, spin_, links_->loads.torque / p_.slider_inertia);
     }
 
@@ -269,10 +269,10 @@ private:
     SLIDEWAY_HD void push(Mask<Real> in, PairOf<Real> const& before, PairOf<Real> const& impulse) {
         Real const half(0.5);
         auto const load = stance_->load(impulse);
-        auto const change = links_->response(load.x, load.y, p_, free_crank_);
+        auto const change = links_->response(load.x, load.y, p_);
         auto const after = stance_->pair.after(before, impulse);
         auto const add = [in](Real& sum, Real amount) { sum = select(in, sum + amount, sum); };
-        if (!free_crank_) add(books_.work, links_->w1 * fms(change.m12, change.a2, change.r1));
+        if (!links_->turns_freely) add(books_.work, links_->w1 * fms(change.m12, change.a2, change.r1));
         for (int i = 0; i < 2; ++i) {
             add(books_.friction, negated(half * (before.along[i] + after.along[i])) * impulse.along[i]);
             add(books_.damping, negated(half * (before.normal[i] + after.normal[i])) * impulse.normal[i]);
@@ -291,7 +291,8 @@ private:
     }
 
     Parameters const& p_;
-    bool friction_, free_crank_;
+    bool friction_;
+    DrivePlan const& drive_;
     LoadList const& loads_;
     Real located_, end_;
     PlanarLinks<Real>* links_ = nullptr;

@@ -28,10 +28,11 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     template <class Real> using Observer = RigidObserver<Real, RigidPlanarReport>;
     static constexpr bool sees_contacts = false, has_patterns = false;  // its watch asks for forces
 
-    bool friction = false, free_crank = false;
+    bool friction = false;
+    DrivePlan drive;
     LoadList loads;
 
-    explicit constexpr RigidPlanarSliderCrank(Parts const& parts) : friction(parts.friction), free_crank(parts.free_crank), loads(parts.loads) {}
+    explicit constexpr RigidPlanarSliderCrank(Parts const& parts) : friction(parts.friction), drive(parts.drive), loads(parts.loads) {}
 
     SLIDEWAY_HD bool has_loads() const { return loads.count > 0; }
 
@@ -45,7 +46,7 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     }
 
     /// Components of the state, a bit each.
-    constexpr unsigned prescribed() const { return free_crank ? 0 : info.prescribed; }
+    constexpr unsigned prescribed() const { return drive.turns_freely() ? 0 : info.prescribed; }
 
     /// Depth [m] up to which a corner that meets its wall is located: what rounding leaves of its height, as the crank's angle grows too.
     template <class Real> SLIDEWAY_FN static Real located(PlanarParameters<Real> const& p, Real end) {
@@ -54,7 +55,7 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
         return fma(Real(2e-12), max(p.clearance, Real(1e-3) * p.rod_length), rounding);
     }
     template <class Real> SLIDEWAY_FN Real gap(Real t, Real const* s, PlanarParameters<Real> const& p, bool, int corner) const {
-        return planar_gap(t, s, p, free_crank, {false, corner});
+        return planar_gap(t, s, p, drive, {false, corner});
     }
     /// The bit of a corner among those that an impact `met`.
     static constexpr int met_bit(bool, int corner) { return corner; }
@@ -64,23 +65,23 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     SLIDEWAY_NOINLINE Faults<Real> derivative(Real t, Real const* s, PlanarParameters<Real> const& p, RigidMemory<Real> const& memory,
                                               Real* rates, RigidPlanarReport<Real>* report) const {
         Real const zero(0.0);
-        PlanarLinks<Real> links(t, s, p, free_crank, loads);
+        PlanarLinks<Real> links(t, s, p, drive, loads);
         PlanarCorners<Real> corners(links, s, p);
         if constexpr (Full) begin_report(corners, memory, report->contact);
         // NaN in a lane whose angles are, whatever its neighbours touch.
         auto const nothing = corners.push_of_nothing();
-        auto motion = links.accelerations(nothing.fx, nothing.fy, p, free_crank);
+        auto motion = links.accelerations(nothing.fx, nothing.fy, p);
         Real torque = nothing.torque + links.loads.torque;
         auto jammed = memory.jammed > zero;
         auto const held = (memory.held[0].side != zero) | (memory.held[1].side != zero);
         if (any(held)) {
-            PlanarStance<Real> const stance(links, sincos(s[2]), memory.held[0].side, memory.held[1].side, p, free_crank);
+            PlanarStance<Real> const stance(links, sincos(s[2]), memory.held[0].side, memory.held[1].side, p);
             auto centre = links.centre_acceleration(motion);
             using Settlement = PlanarSettlement<Real>;
             ContactState<Real> const state[2] = {Settlement::state_of(memory.held[0], p, friction), Settlement::state_of(memory.held[1], p, friction)};
             auto const force = stance.pair.solve(stance.acceleration(centre.x, centre.y, s[5], links.loads.torque / p.slider_inertia), {zero, zero}, state);
             auto const load = stance.load(force);
-            auto const pushed = links.accelerations(load.x, load.y, p, free_crank);
+            auto const pushed = links.accelerations(load.x, load.y, p);
             motion.a1 = select(held, pushed.a1, motion.a1);
             motion.a2 = select(held, pushed.a2, motion.a2);
             motion.r1 = select(held, pushed.r1, motion.r1);
@@ -94,7 +95,7 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
         rates[3] = motion.a1;
         rates[4] = motion.a2;
         rates[5] = select(memory.jammed > zero, Real(not_a_number), torque / p.slider_inertia);
-        if constexpr (Full) links.tell(motion, s[5], p, free_crank, *report);
+        if constexpr (Full) links.tell(motion, s[5], p, *report);
         auto faults = Faults<Real>::none();
         faults.contact_domain = jammed;
         faults.geometry = (memory.begun == zero) & (corners.deepest() > Real(1e-6) * p.clearance);
@@ -106,7 +107,7 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     template <class Real>
     SLIDEWAY_NOINLINE Mask<Real> settle(Mask<Real> in, Real t, Real end, Real* s, PlanarParameters<Real> const& p, RigidMemory<Real>& memory,
                                         RigidPlanarContact<Real> const& contact) const {
-        PlanarSettlement<Real> settlement(p, friction, free_crank, loads, located(p, end), end);
+        PlanarSettlement<Real> settlement(p, friction, drive, loads, located(p, end), end);
         return settlement.run(in, t, s, memory, contact);
     }
 
@@ -120,7 +121,7 @@ struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     template <class Real>
     SLIDEWAY_NOINLINE Mask<Real> push(Real t, Real h, Real const* s, Real* free, PlanarParameters<Real> const& p,
                                       RigidPlanarContact<Real>& contact) const {
-        return PlanarStepImpulse<Real>(p, friction, free_crank).run(t, h, s, free, contact);
+        return PlanarStepImpulse<Real>(p, friction, drive).run(t, h, s, free, contact);
     }
 
 private:

@@ -18,7 +18,7 @@ template <class Real> struct PlanarStance {
 
     /// @param sides of the walls of the corner in front and the one behind; 0 where neither of the two touches
     SLIDEWAY_FN PlanarStance(PlanarLinks<Real> const& links, SinCos<Real> const& tilt, Real front, Real rear,
-                             PlanarParameters<Real> const& p, bool free_crank)
+                             PlanarParameters<Real> const& p)
         : side{front, rear} {
         Real const length_x = p.half_length * tilt.cos, length_y = p.half_length * tilt.sin;
         Real const height_x = p.half_height * tilt.sin, height_y = p.half_height * tilt.cos;
@@ -28,8 +28,8 @@ template <class Real> struct PlanarStance {
             y[i] = fma(side[i], height_y, along * length_y);
         }
         // How the centre answers to a force on it.
-        auto const by_x = links.response(Real(1.0), Real(0.0), p, free_crank);
-        auto const by_y = links.response(Real(0.0), Real(1.0), p, free_crank);
+        auto const by_x = links.response(Real(1.0), Real(0.0), p);
+        auto const by_y = links.response(Real(0.0), Real(1.0), p);
         Real const xx = negated(fma(links.y1, by_x.a1, links.y2 * by_x.a2));
         Real const xy = negated(fma(links.y1, by_y.a1, links.y2 * by_y.a2));
         Real const yy = fma(links.x1, by_y.a1, links.x2 * by_y.a2);

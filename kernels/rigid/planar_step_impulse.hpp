@@ -15,8 +15,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// velocity at its start.
 template <class Real> class PlanarStepImpulse {
 public:
-    SLIDEWAY_HD PlanarStepImpulse(PlanarParameters<Real> const& p, bool friction, bool free_crank)
-        : p_(p), friction_(friction), free_crank_(free_crank) {}
+    SLIDEWAY_HD PlanarStepImpulse(PlanarParameters<Real> const& p, bool friction, DrivePlan const& drive)
+        : p_(p), friction_(friction), drive_(drive) {}
 
     /// As RigidPlanarSliderCrank::push.
     SLIDEWAY_HD Mask<Real> run(Real t, Real h, Real const* s, Real* free, RigidPlanarContact<Real>& contact) {
@@ -27,23 +27,23 @@ public:
         contact.books = ImpactBooks<Real>::none();
         contact.count_modes(closed_, side_);
         if (none(near_[0] | near_[1])) return failed_;
-        PlanarLinks<Real> links(t, free, p_, free_crank_, {});  // impulses alone
-        PlanarStance<Real> const stance(links, sincos(free[2]), side_[0], side_[1], p_, free_crank_);
+        PlanarLinks<Real> links(t, free, p_, drive_, {});  // impulses alone
+        PlanarStance<Real> const stance(links, sincos(free[2]), side_[0], side_[1], p_);
         auto const before = stance.motion(links.vx, links.vy, free[5]);
         // A corner that leaves by itself takes no part: one that the other throws back meets its wall in a step of its own, with its restitution.
         for (int i = 0; i < 2; ++i) near_[i] = near_[i] & (before.normal[i] < zero);
         Mask<Real> const touching = near_[0] | near_[1];
         if (none(touching)) return failed_;
         auto start_links = links;
-        start_links.turn_at(free_crank_ ? s[3] : p_.crank_speed, s[4]);
+        start_links.turn_at(links.turns_freely ? s[3] : links.w1, s[4]);
         auto const start = stance.motion(start_links.vx, start_links.vy, s[5]);
         auto const impulse = solve(touching, stance.pair, before, start, contact);
         auto const load = stance.load(impulse);
-        auto const change = links.response(load.x, load.y, p_, free_crank_);
-        if (free_crank_) free[3] = select(touching, links.w1 + change.a1, free[3]);
+        auto const change = links.response(load.x, load.y, p_);
+        if (links.turns_freely) free[3] = select(touching, links.w1 + change.a1, free[3]);
         free[4] = select(touching, links.w2 + change.a2, free[4]);
         free[5] = select(touching, free[5] + load.torque / p_.slider_inertia, free[5]);
-        if (!free_crank_) contact.books.work = select(touching, links.w1 * fms(change.m12, change.a2, change.r1), zero);
+        if (!links.turns_freely) contact.books.work = select(touching, links.w1 * fms(change.m12, change.a2, change.r1), zero);
         book(start, stance.pair.after(before, impulse), impulse, contact);
         return failed_;
     }
@@ -108,7 +108,8 @@ private:
     }
 
     PlanarParameters<Real> const& p_;
-    bool friction_, free_crank_;
+    bool friction_;
+    DrivePlan const& drive_;
     Real side_[2];
     Mask<Real> near_[2], failed_;
     Mask<Real> closed_[2];  // where a corner pushes, or is no farther and no faster than the step makes it without impulses

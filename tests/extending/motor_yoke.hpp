@@ -86,7 +86,7 @@ struct MotorAndYoke {
     public:
         Real x, vx;
 
-        SLIDEWAY_FN At(Real, Real const* s, MotorParameters<Real> const& p, Faults<Real>&) : speed_(s[11]) {
+        SLIDEWAY_FN At(Real, Real const* s, MotorParameters<Real> const& p, DrivePlan const&, Faults<Real>&) : speed_(s[11]) {
             auto const crank = sincos(s[10]);
             x = p.crank_length * crank.cos;
             slope_ = negated(p.crank_length) * crank.sin;
@@ -118,11 +118,11 @@ struct MotorAndYoke {
     };
 
     template <class Real> using Constraint = DrivenGuide<MotorAndYoke>::Constraint<Real>;  // along X no contact is stiff
-    template <class Real> SLIDEWAY_FN static AlongWay<Real> motion(Real, Real const* s, SliderParameters<Real> const& p) {
+    template <class Real> SLIDEWAY_FN static AlongWay<Real> motion(Real, Real const* s, SliderParameters<Real> const& p, DrivePlan const&) {
         auto const crank = sincos(s[10]);
         return {p.crank_length * crank.cos, negated(p.crank_length * s[11]) * crank.sin, Real(0.0)};
     }
-    template <class Real> SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p) { return motion(t, s, p).x; }
+    template <class Real> SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive) { return motion(t, s, p, drive).x; }
 };
 using MotorYoke = SpatialSlider<MotorAndYoke>;
 

@@ -7,7 +7,11 @@
 namespace oracle::detail {
 
 /// What a load may be read over.
-struct LoadPlace { Real crank_angle = 0, time = 0, x = 0, vx = 0; };
+struct LoadPlace { Real crank_angle = 0, time = 0, x = 0, vx = 0, crank_speed = 0; };
+
+/// A table with its first two derivatives.
+struct TableMotion { Real value = 0, slope = 0, bend = 0; };
+TableMotion table_motion(slideway::PieceTable const& table, Real at);
 
 /// Of all loads.
 struct LoadSum {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "linear_solve.hpp"
+#include "loads.hpp"
 #include "poses.hpp"
 #include "kernels/mechanisms/list.hpp"
 
@@ -22,13 +23,40 @@ SliderMotion slider_motion(Vector3 const& centre, Vector3 const& velocity, State
     return m;
 }
 
-Kinematics kinematics_of(Inputs const& in, Real t, State const& state) {
+CrankMotion crank_motion(Inputs const& in, Parts const& parts, Real t, State const& state) {
+    using enum slideway::DriveBy;
+    switch (parts.drive.by) {
+        case torque:
+        case nothing: return {state[10], state[11], 0};
+        case profile: {
+            TableMotion const motion = table_motion(*parts.drive.table, t);
+            Real const scale = in.drive_scale;
+            return {in.start_angle + scale * motion.value, scale * motion.slope, scale * motion.bend};
+        }
+        case speed: break;
+    }
+    return {Real(in.start_angle) + Real(in.crank_speed) * t, in.crank_speed, 0};
+}
+
+Real motor_torque(Inputs const& in, Parts const& parts, CrankMotion const& crank, Real t) {
+    if (parts.drive.by == slideway::DriveBy::speed || parts.drive.by == slideway::DriveBy::profile) return 0;
+    Real torque = in.drive_torque;
+    if (in.drive_no_load_speed != 0) torque *= 1 - crank.speed / Real(in.drive_no_load_speed);
+    using enum slideway::LoadArgument;
+    if (parts.drive.table != nullptr) {
+        auto const over = parts.drive.over;
+        torque *= table_motion(*parts.drive.table, over == crank_angle ? crank.angle : over == crank_speed ? crank.speed : t).value;
+    }
+    return torque - in.drive_viscous * crank.speed;
+}
+
+Kinematics kinematics_of(Inputs const& in, CrankMotion const& crank, State const& state) {
     Kinematics k;
-    Real const speed = in.crank_speed;
-    k.angle = Real(in.start_angle) + speed * t;
+    Real const speed = crank.speed;
+    k.angle = crank.angle;
     k.pin = Real(in.crank_length) * Vector3(std::cos(k.angle), std::sin(k.angle), 0);
     k.pin_velocity = speed * Vector3::UnitZ().cross(k.pin);
-    k.pin_acceleration = -speed * speed * k.pin;
+    k.pin_acceleration = crank.acceleration * Vector3::UnitZ().cross(k.pin) - speed * speed * k.pin;
 
     Real const y = state[0], z = state[1], vy = state[2], vz = state[3];
     Real const above = y - k.pin.y();
@@ -48,9 +76,11 @@ namespace {
 Real station_of_way(Inputs const& in, Mechanism mechanism) {
     switch (mechanism) {
         case Mechanism::slider_crank:
+        case Mechanism::slider_crank_motor:
             return in.rod_length;
         case Mechanism::carriage:
         case Mechanism::scotch_yoke:
+        case Mechanism::scotch_yoke_motor:
         case Mechanism::free_slider:
             return 0;
         case Mechanism::planar_slider_crank:

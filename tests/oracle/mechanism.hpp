@@ -23,8 +23,15 @@ struct Kinematics {
     SliderMotion slider;
 };
 
-/// Of the mechanism at t [s]; nothing but the crank where the rod does not reach.
-Kinematics kinematics_of(Inputs const& in, Real t, State const& state);
+/// Of a crank [rad], [rad/s], [rad/s²].
+struct CrankMotion { Real angle = 0, speed = 0, acceleration = 0; };
+/// At constant speed, on a profile, or as the state has it: then without its acceleration, which the torque gives.
+CrankMotion crank_motion(Inputs const& in, Parts const& parts, Real t, State const& state);
+/// Of a motor, with the torque that its bearings take [N m].
+Real motor_torque(Inputs const& in, Parts const& parts, CrankMotion const& crank, Real t);
+
+/// Of the mechanism; nothing but the crank where the rod does not reach.
+Kinematics kinematics_of(Inputs const& in, CrankMotion const& crank, State const& state);
 
 /// The way where the parts have it: misaligned, or along X.  It turns about x = L where there is a rod, else about
 /// x = 0.  @throws std::invalid_argument for a mechanism that is not spatial

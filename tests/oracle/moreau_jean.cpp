@@ -18,7 +18,7 @@ using namespace detail;
 class Stepper {
 public:
     Stepper(Inputs const& in, Parts const& parts, MoreauJeanRates rates)
-        : in_(in), free_(parts.free_crank), predicts_(rates == MoreauJeanRates::of_middle), friction_(parts.friction ? Real(in.friction_kinetic) : Real(0)) {}
+        : in_(in), free_(parts.drive.turns_freely()), predicts_(rates == MoreauJeanRates::of_middle), friction_(parts.friction ? Real(in.friction_kinetic) : Real(0)) {}
 
     void advance(PlanarState& s, Real h) const {
         Vector3 const u(s[3], s[4], s[5]);

@@ -60,6 +60,9 @@ int states_of(Mechanism mechanism) {
             return 10;
         case Mechanism::free_slider:
             return 12;  // x and vx too
+        case Mechanism::slider_crank_motor:
+        case Mechanism::scotch_yoke_motor:
+            return 12;  // angle and speed of the crank too
         case Mechanism::planar_slider_crank:
             return 6;
     }

@@ -31,20 +31,28 @@ struct Placed {
     SliderMotion slider;
 };
 
-Placed placed(Inputs const& in, Parts const& parts, Real t, State const& state) {
+Placed placed(Inputs const& in, Parts const& parts, CrankMotion const& turning, Real t, State const& state) {
     auto const along = [&state](AlongTheWay const& drive) {
         Vector3 const centre(drive.x, state[0], state[1]), velocity(drive.vx, state[2], state[3]);
         return Placed{true, {}, drive, slider_motion(centre, velocity, state)};
     };
     switch (parts.mechanism) {
-        case Mechanism::slider_crank: {
-            Kinematics const crank = kinematics_of(in, t, state);
+        case Mechanism::slider_crank:
+        case Mechanism::slider_crank_motor: {
+            Kinematics const crank = kinematics_of(in, turning, state);
             return {crank.reached, crank, {}, crank.slider};
         }
-        case Mechanism::carriage:
-            return along(carriage_motion(in, t));
+        case Mechanism::carriage: {
+            if (parts.drive.by != slideway::DriveBy::profile) return along(carriage_motion(in, t));
+            TableMotion const motion = table_motion(*parts.drive.table, t);
+            Real const scale = in.drive_scale;
+            return along({scale * motion.value, scale * motion.slope, scale * motion.bend});
+        }
         case Mechanism::scotch_yoke:
-            return along(scotch_yoke_motion(in, t));
+        case Mechanism::scotch_yoke_motor: {
+            Real const radius = in.crank_length, cosine = radius * std::cos(turning.angle), sine = radius * std::sin(turning.angle);
+            return along({cosine, -sine * turning.speed, -cosine * turning.speed * turning.speed - sine * turning.acceleration});
+        }
         case Mechanism::free_slider:
             return along({state[10], state[11], 0});
         case Mechanism::planar_slider_crank:
@@ -52,6 +60,27 @@ Placed placed(Inputs const& in, Parts const& parts, Real t, State const& state) 
     }
     throw std::invalid_argument("oracle: the planar mechanism has an oracle of its own");
 }
+
+/// A crank that turns freely: J θ'' = T + (r/2 × m_c g) + T_load − (torque that it gives away).
+struct Turning {
+    Inputs const& in;
+    Parts const& parts;
+    Vector3 const& gravity;
+    Real motor, load;
+
+    [[nodiscard]] bool has_crank() const { return parts.mechanism == Mechanism::slider_crank_motor; }
+    [[nodiscard]] Real crank_mass() const { return has_crank() ? Real(in.crank_mass) : 0; }
+    [[nodiscard]] Real inertia() const {
+        Real const arm = Real(in.crank_length) / 2;
+        return in.drive_inertia + (has_crank() ? in.crank_inertia + crank_mass() * arm * arm : 0);
+    }
+    /// What is given away is linear in θ''.
+    template <class Given> Real acceleration(Given const& given, Vector3 const& pin) const {
+        Real const others = motor + load + (pin / 2).cross(crank_mass() * gravity).z();
+        Real const at_rest = given(0), per_unit = given(1) - at_rest;
+        return (others - at_rest) / (inertia() + per_unit);
+    }
+};
 
 void report_crank(Inputs const& in, Kinematics const& k, Motion const& motion, Vector3 const& gravity, Result& result) {
     result.power_crank = static_cast<double>(motion.pin_force.dot(k.pin_velocity));
@@ -107,7 +136,8 @@ Inputs completed(Inputs in) {
 }
 
 Result evaluate(Inputs const& in, Parts const& parts, double t, State const& state, Pairs const* impact_speeds) {
-    auto const [reached, crank, drive, slider] = placed(in, parts, t, state);
+    CrankMotion turning = crank_motion(in, parts, t, state);
+    auto [reached, crank, drive, slider] = placed(in, parts, turning, t, state);
     if (!reached) {
         Result nothing;
         nothing.geometry = true;
@@ -115,7 +145,7 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
         return nothing;
     }
     JointLoads const joint = joint_loads(in, parts, slider, impact_speeds);
-    LoadPlace const place{Real(in.start_angle) + Real(in.crank_speed) * Real(t), t, slider.centre.x(), slider.velocity.x()};
+    LoadPlace const place{turning.angle, t, slider.centre.x(), slider.velocity.x(), turning.speed};
     LoadSum const loads = load_sum(in, parts, place, slider.pose, slider.pose_rate);
     Vector3 const force = joint.force + loads.force;
 
@@ -124,7 +154,29 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     Vector3 acceleration = force / in.slider_mass + gravity;
     Real energy = slider_energy(in, slider, gravity) + joint.potential;
     Result result;
+    Turning const free{in, parts, gravity, motor_torque(in, parts, turning, t), loads.crank_torque};
     switch (parts.mechanism) {
+        case Mechanism::slider_crank_motor: {
+            turning.acceleration = free.acceleration([&](Real by) {
+                auto const k = kinematics_of(in, {turning.angle, turning.speed, by}, state);
+                return k.pin.cross(solve_motion(in, k, gravity, force).pin_force).z();
+            }, crank.pin);
+            crank = kinematics_of(in, turning, state);
+            Motion const motion = solve_motion(in, crank, gravity, force);
+            acceleration = motion.slider_acceleration;
+            energy += rod_energy(in, crank, gravity);
+            report_crank(in, crank, motion, gravity, result);
+            break;
+        }
+        case Mechanism::scotch_yoke_motor: {
+            auto const push = [&](Real by) { return in.slider_mass * (placed(in, parts, {turning.angle, turning.speed, by}, t, state).drive.ax - acceleration.x()); };
+            Real const lever = -Real(in.crank_length) * std::sin(turning.angle);
+            turning.acceleration = free.acceleration([&](Real by) { return push(by) * lever; }, Vector3::Zero());
+            drive = placed(in, parts, turning, t, state).drive;
+            acceleration.x() = drive.ax;
+            result.ideal_x = static_cast<double>(drive.x);
+            break;
+        }
         case Mechanism::slider_crank: {
             Motion const motion = solve_motion(in, crank, gravity, force);
             acceleration = motion.slider_acceleration;
@@ -149,10 +201,17 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
         case Mechanism::planar_slider_crank:  // has no place here, see placed()
             break;
     }
-    result.energy = static_cast<double>(energy);
-    Real const of_crank = loads.crank_torque * in.crank_speed;
+    Real const of_crank = loads.crank_torque * turning.speed;
     result.power_load = static_cast<double>(loads.slider_power + of_crank);
-    result.power_crank -= static_cast<double>(of_crank);
+    if (parts.drive.turns_freely()) {
+        result.derivative[10] = state[11];
+        result.derivative[11] = static_cast<double>(turning.acceleration);
+        result.power_crank = static_cast<double>(free.motor * turning.speed);
+        energy += free.inertia() * turning.speed * turning.speed / 2 - free.crank_mass() * gravity.dot(crank.pin) / 2;
+    } else {
+        result.power_crank -= static_cast<double>(of_crank);
+    }
+    result.energy = static_cast<double>(energy);
 
     Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
     Matrix3 const attitude = slider.pose.topLeftCorner<3, 3>();
@@ -182,7 +241,7 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
 Pairs penetrations(Inputs const& in, Parts const& parts, double t, State const& state) {
     Pairs depths;
     depths.fill(std::numeric_limits<double>::quiet_NaN());
-    Placed const now = placed(in, parts, t, state);
+    Placed const now = placed(in, parts, crank_motion(in, parts, t, state), t, state);
     if (!now.reached) return depths;
     PairTable const pairs = pairs_of(in, now.slider, pose_of_way(in, parts), nullptr);
     for (int axis : {1, 2})

@@ -10,7 +10,7 @@
 namespace oracle {
 
 /// y z [m], vy vz [m/s], roll yaw pitch [rad], ω in the slider's frame [rad/s]; of a free slider also x [m], vx [m/s],
-/// which nobody reads where a mechanism prescribes them.
+/// of a crank that turns freely its angle [rad] and speed [rad/s], which nobody reads where a mechanism prescribes them.
 using State = std::array<double, 12>;
 /// One value per apex-face pair: Y faces P1..P8, then Z faces P1..P8.
 using Pairs = std::array<double, 16>;

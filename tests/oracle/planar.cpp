@@ -6,6 +6,7 @@
 #include "laws.hpp"
 #include "linear_solve.hpp"
 #include "loads.hpp"
+#include "mechanism.hpp"
 #include "numbers.hpp"
 
 namespace oracle {
@@ -63,7 +64,8 @@ void count_modes(Corners const& depth, PlanarResult& result) {
 }  // namespace
 
 PlanarState planar_start(Inputs const& in) {
-    Real const crank = in.crank_length, rod = in.rod_length, angle = in.start_angle, speed = in.crank_speed;
+    Real const crank = in.crank_length, rod = in.rod_length, angle = in.start_angle;
+    Real const speed = std::isnan(in.profile_speed) ? Real(in.crank_speed) : Real(in.drive_scale) * in.profile_speed;
     Real const rod_angle = std::asin((in.y - crank * std::sin(angle)) / rod);
     Real const rod_speed = (in.vy - crank * std::cos(angle) * speed) / (rod * std::cos(rod_angle));
     return {angle, rod_angle, in.pitch, speed, rod_speed, in.wz};
@@ -133,22 +135,26 @@ PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_spe
     pose.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
     pose_rate.topLeftCorner<2, 2>() << -sine * rates[2], -cosine * rates[2], cosine * rates[2], -sine * rates[2];
     pose.topRightCorner<2, 1>() = hole.place, pose_rate.topRightCorner<2, 1>() = speed_of_hole;
-    auto const loads = load_sum(in, parts_, {s[0], time, hole.place.x(), speed_of_hole.x()}, pose, pose_rate);
+    auto const loads = load_sum(in, parts_, {s[0], time, hole.place.x(), speed_of_hole.x(), s[3]}, pose, pose_rate);
     load += hole.jacobian.transpose() * loads.force.head<2>() + Vector3(loads.crank_torque, 0, loads.torque.z());
     result.power_load = loads.force.head<2>().dot(speed_of_hole) + loads.torque.z() * rates[2] + loads.crank_torque * rates[0];
-    result.energy += result.contact_potential;
+    result.energy += result.contact_potential + Real(in.drive_inertia) * rates[0] * rates[0] / 2;
+    mass(0, 0) += in.drive_inertia;
+    bool const free = parts_.drive.turns_freely();
+    Real const motor = torque + detail::motor_torque(in, parts_, {s[0], s[3], 0}, time);
+    Real const given = free ? Real(0) : detail::crank_motion(in, parts_, time, {}).acceleration;
 
-    // Unknown: q'' and the torque, which is given on a free crank and holds θ1'' = 0 on a driven one.
+    // Unknown: q'' and the torque, which is given on a free crank and holds θ1'' as the drive has it on a driven one.
     Matrix system = Matrix::Zero(4, 4), right = Matrix::Zero(4, 1);
     system.topLeftCorner(3, 3) = mass;
     system(0, 3) = -1;
-    system(3, parts_.free_crank ? 3 : 0) = 1;
+    system(3, free ? 3 : 0) = 1;
     right.topRows(3) = load;
-    right(3, 0) = parts_.free_crank ? torque : Real(0);
+    right(3, 0) = free ? motor : given;
     Matrix const solved = solution(system, right);
     Vector3 const accelerations = solved.topRows(3);
     for (int i = 0; i < 3; ++i) result.derivative[i] = rates[i], result.derivative[3 + i] = accelerations[i];
-    result.drive_torque = parts_.free_crank ? torque : solved(3, 0);
+    result.drive_torque = free ? motor : solved(3, 0);
     result.power_drive = result.drive_torque * s[3];
 
     Point const& centre = bodies[2].centre;

@@ -26,7 +26,7 @@ Parts parts_number(int i) {
     parts.mechanism = Mechanism::planar_slider_crank;
     parts.damping = std::array{Damping::point, Damping::rate, Damping::restitution}[i % 3];
     parts.friction = i / 3 % 2 != 0;
-    parts.free_crank = i / 6 % 2 != 0;
+    parts.drive.by = i / 6 % 2 != 0 ? slideway::DriveBy::nothing : slideway::DriveBy::speed;
     return parts;
 }
 

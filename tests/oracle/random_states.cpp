@@ -203,7 +203,21 @@ void slow_to_friction(Dice& dice, Case& c) {
     in.crank_speed = (in.crank_speed < 0 ? -1 : 1) * speed / in.crank_length;
     in.stroke *= speed / in.carriage_speed;
     in.carriage_speed = speed;
-    c.state[11] = std::copysign(speed, c.state[11]);
+    bool const turns = c.parts.drive.turns_freely();
+    c.state[11] = std::copysign(turns ? speed / in.crank_length : speed, c.state[11]);
+}
+
+void set_motor(Dice& dice, Case& c) {
+    Inputs& in = c.inputs;
+    c.parts.drive.by = dice.chance(0.2) ? slideway::DriveBy::nothing : slideway::DriveBy::torque;
+    if (c.parts.drive.by == slideway::DriveBy::torque) {
+        in.drive_torque = dice.signed_scale(1e-2, 10);
+        in.drive_no_load_speed = dice.chance(0.3) ? 0 : dice.scale(1, 300);
+    }
+    in.drive_viscous = dice.chance(0.3) ? 0 : dice.scale(1e-5, 1e-1);
+    in.drive_inertia = dice.scale(1e-5, 1);
+    c.state[10] = dice.uniform(-10, 10);
+    c.state[11] = dice.signed_scale(1e-2, 100);
 }
 
 /// What a slider-crank does not have.
@@ -229,6 +243,11 @@ void set_along_the_way(Dice& dice, Case& c) {
             c.state[10] = dice.uniform(-0.2, 0.3);
             c.state[11] = dice.chance(0.1) ? 0 : dice.signed_scale(1e-4, 3);
             return;
+        case Mechanism::slider_crank_motor:
+        case Mechanism::scotch_yoke_motor:
+            vary_stiffness();
+            set_motor(dice, c);
+            return;
         case Mechanism::planar_slider_crank:
             break;
     }
@@ -247,6 +266,8 @@ double any_time(Dice& dice, Case const& c) {
         case Mechanism::scotch_yoke:
         case Mechanism::free_slider:
         case Mechanism::planar_slider_crank:
+        case Mechanism::slider_crank_motor:
+        case Mechanism::scotch_yoke_motor:
             break;
     }
     return dice.uniform(0, 2);

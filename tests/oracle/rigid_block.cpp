@@ -35,7 +35,7 @@ struct Forces {
 
 class Block {
 public:
-    Block(Inputs const& in, Parts const& parts) : in_(in), free_(parts.free_crank) {
+    Block(Inputs const& in, Parts const& parts) : in_(in), free_(parts.drive.turns_freely()) {
         mu_slip_ = parts.friction ? in.friction_kinetic : 0;
         mu_hold_ = parts.friction ? std::max(in.friction_static, in.friction_kinetic) : 0;
         state_ = planar_start(in);

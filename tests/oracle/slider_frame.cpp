@@ -42,7 +42,7 @@ SliderPlace SliderFrame::start() const {
     if (parts_.mechanism == Mechanism::scotch_yoke) along(scotch_yoke_motion(in_, 0));
     if (parts_.mechanism == Mechanism::slider_crank) {
         State state{in_.y, in_.z, in_.vy, in_.vz};
-        Kinematics const k = kinematics_of(in_, 0, state);
+        Kinematics const k = kinematics_of(in_, crank_motion(in_, parts_, 0, {}), state);
         p.centre = k.slider.centre, p.velocity = k.slider.velocity;
     }
     return p;
@@ -98,6 +98,9 @@ void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_i
             along = direction.head<3>().dot(pin_acceleration) - (place_.velocity - pin_velocity).squaredNorm();
             break;
         }
+        case Mechanism::slider_crank_motor:
+        case Mechanism::scotch_yoke_motor:
+            throw std::invalid_argument("oracle: a crank that turns freely has no rigid contacts");
         case Mechanism::free_slider:
         case Mechanism::planar_slider_crank:
             break;

@@ -63,5 +63,27 @@ TEST(Jobs, PumpDoesTheWorkOfItsIndicatorDiagram) {
     EXPECT_NEAR(given, -5 * work + lost, 0.01 * given);
 }
 
+TEST(Jobs, PressTakesItsStrokesFromTheFlywheel) {
+    std::string const few = "--set study.members=8 --set study.verify=0";
+    double const work = mean_of("press.toml", few, "load_work"), given = mean_of("press.toml", few, "crank_work");
+    // What the drive gives and does not go into the strokes is in friction, impacts and what turns.
+    double const lost = mean_of("press.toml", few, "friction_loss") + mean_of("press.toml", few, "damping_loss"),
+                 kept = mean_of("press.toml", few, "energy_change");
+    EXPECT_LT(work, -50);
+    EXPECT_NEAR(given + work, lost + kept, 1e-4 * given);
+    // A flywheel loses what a stroke takes: a light one slows the press down more, and it makes fewer strokes.
+    std::string const light = few + " --set 'study.vary.\"drive.inertia\"={dist=\"const\",value=0.05}'";
+    EXPECT_GT(mean_of("press.toml", light, "load_work"), work);
+}
+
+TEST(Jobs, CarriageFollowsItsProfile) {
+    // There and back it stops where it began: all that the drive gives is lost, but for what the slider keeps across the way.
+    std::string const few = "--set study.members=8 --set study.verify=0";
+    double const given = mean_of("carriage.toml", few, "crank_work"), friction = mean_of("carriage.toml", few, "friction_loss"),
+                 impacts = mean_of("carriage.toml", few, "damping_loss"), kept = mean_of("carriage.toml", few, "energy_change");
+    EXPECT_GT(given, 0);
+    EXPECT_NEAR(given, friction + impacts + kept, 1e-4 * given);
+}
+
 }  // namespace
 }  // namespace slideway::jobs_test

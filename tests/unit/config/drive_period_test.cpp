@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 Parts parts_of(Mechanism mechanism, bool free_crank = false) {
     Parts parts;
     parts.mechanism = mechanism;
-    parts.free_crank = free_crank;
+    parts.drive.by = free_crank ? DriveBy::nothing : DriveBy::speed;
     return parts;
 }
 
@@ -100,29 +100,29 @@ TEST(Revolutions, AreNoneWhereNothingDrives) {
     EXPECT_EQ(error_of(with_kind("free_slider", "[study]\nduration = 1\nsamples_per_revolution = 2")),
               "scene.toml:6: study.samples_per_revolution is 2 (nothing drives a free_slider, so there are no "
               "revolutions); use study.samples instead");
-    EXPECT_EQ(error_of(with_kind("planar_slider_crank", "crank = \"free\"\n[study]\nrevolutions = 2")),
-              "scene.toml:6: study.revolutions is 2 (nothing drives a free crank, so there are no revolutions); "
+    EXPECT_EQ(error_of(with_kind("planar_slider_crank", "[drive]\nkind = \"free\"\n[study]\nrevolutions = 2")),
+              "scene.toml:7: study.revolutions is 2 (nothing drives a free crank, so there are no revolutions); "
               "use study.duration instead");
     EXPECT_EQ(scene_of(with_kind("free_slider", "")).integrator.end_time, 1);
     EXPECT_EQ(scene_of(with_kind("free_slider", "")).integrator.max_step, 1e-3);
 }
 
 TEST(Revolutions, OfAFreeCrankLimitItsStepsByTheSpeedItStartsWith) {
-    std::string const lines = "crank = \"free\"\ncrank_speed = \"600 rpm\"";
+    std::string const lines = "crank_speed = \"600 rpm\"\n[drive]\nkind = \"free\"";
     EXPECT_DOUBLE_EQ(scene_of(with_kind("planar_slider_crank", lines)).integrator.max_step, 5e-5);
-    EXPECT_EQ(scene_of(with_kind("planar_slider_crank", "crank = \"free\"\ncrank_speed = 0")).integrator.max_step,
+    EXPECT_EQ(scene_of(with_kind("planar_slider_crank", "crank_speed = 0\n[drive]\nkind = \"free\"")).integrator.max_step,
               1e-3);
 }
 
 TEST(Revolutions, OfStudiesOfOrbits) {
-    std::string const free = "crank = \"free\"\n";
+    std::string const free = "[drive]\nkind = \"free\"\n";
     EXPECT_EQ(error_of(with_kind("planar_slider_crank", free + "[study]\nkind = \"poincare\"")),
-              "scene.toml:6: study.phase is not given (nothing drives a free crank, so no crank angle comes round); "
+              "scene.toml:7: study.phase is not given (nothing drives a free crank, so no crank angle comes round); "
               "give study.section");
     EXPECT_EQ(error_of(with_kind("planar_slider_crank",
                                  free + "[study]\nkind = \"sweep\"\nparameter = \"joint.clearance\"\nvalues = [1e-4]")),
-              "scene.toml:6: study.phase is not given (nothing drives a free crank, so no crank angle comes round); "
-              "use crank = \"driven\"");
+              "scene.toml:7: study.phase is not given (nothing drives a free crank, so no crank angle comes round); "
+              "use drive.kind = \"speed\", or a profile that repeats");
     Scene const lyapunov = scene_of(with_kind("planar_slider_crank", free + "[study]\nkind = \"lyapunov\""));
     EXPECT_EQ(lyapunov.chaos.span, (Span{10, false}));
     EXPECT_EQ(lyapunov.chaos.dt, (Span{1.0 / 2000, false}));

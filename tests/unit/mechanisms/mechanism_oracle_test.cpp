@@ -95,11 +95,11 @@ void compare_planar_probe(Isa isa, oracle::PlanarCase const& c, std::string cons
     double const speed =
         pin_speed + in.rod_length * std::abs(static_cast<double>(start[4])) + in.slider_length * std::abs(in.wz);
     compare.group("powers", powers, got, 4,
-                  1e-6 * load * speed + (c.parts.free_crank ? 0 : (load + weight) * pin_speed));
+                  1e-6 * load * speed + (c.parts.drive.turns_freely() ? 0 : (load + weight) * pin_speed));
     compare.value("energy", static_cast<double>(r.energy), p.energy, weight * reach);
     compare.value("potential", static_cast<double>(r.contact_potential), p.contact_potential);
     compare.value("drive torque", static_cast<double>(r.drive_torque), p.crank_torque,
-                  c.parts.free_crank ? 0 : (load + weight) * in.crank_length);
+                  c.parts.drive.turns_freely() ? 0 : (load + weight) * in.crank_length);
 }
 
 class PlanarKernelsAgainstOracle : public ::testing::TestWithParam<Isa> {};
@@ -163,6 +163,53 @@ TEST(LoadsAgainstOracle, AgreeOnThousandsOfStates) {
     auto cases = oracle::make_planar_cases(20261129, 2000);
     for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
         loads.put(cases[i].inputs, cases[i].parts, i, cases[i].inputs.slider_mass * cases[i].inputs.gravity);
+        compare_planar_probe(best_isa(), cases[i], "planar case " + std::to_string(i));
+    }
+}
+
+/// θ or x over time, repeating or not: pieces of degree four.
+testing::Pieces& profile(bool repeats) {
+    static testing::Pieces once{{{-0.5, 0.2, 1, 0.3, -0.2, 0.1}, {0.3, 0.5, 1.5, -2, 0.4, 3}, {1.2, 1, -1, 0, 0, 0}}, 9};
+    static testing::Pieces always{{{0.1, 0, 4, -3, 2, 1}, {0.6, 1.9, 2, 5, 0, -2}}, 1.1, true};
+    return repeats ? always : once;
+}
+
+TEST(DrivesAgainstOracle, OfProfilesAgreeOnThousandsOfStates) {
+    PieceTable turning = profile(true).table();
+    turning.advance = 6.5;
+    PieceTable const tables[] = {profile(false).table(), turning};
+    for (Mechanism const mechanism : {Mechanism::slider_crank, Mechanism::scotch_yoke, Mechanism::carriage}) {
+        auto cases = oracle::make_cases(20261130, 2000, mechanism);
+        int compared = 0;
+        for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+            auto& [in, parts, t, state, speeds] = cases[i];
+            // Where the crank is as the case has it: the joint's state belongs to that.
+            parts.drive = {.by = DriveBy::profile, .table = &tables[i % 2]};
+            in.drive_scale = mechanism == Mechanism::carriage ? 0.1 : 0.9;
+            compared += compare_probe(best_isa(), cases[i], oracle::name_of(mechanism) + " case " + std::to_string(i));
+        }
+        EXPECT_GT(compared, 1500);
+    }
+}
+
+TEST(DrivesAgainstOracle, OfThePlanarCrankAgreeOnThousandsOfStates) {
+    testing::Pieces const falls({{0, 1, -0.01, 0, 1e-7}, {100, 0.1, 0, -1e-6, 0}}, 400), turns({{0, 1, 0.2, 0, 0}, {3, 1.6, -0.2, 0, 0}}, 6.25, true);
+    testing::Pieces const profile_of({{0, 0, 3, 1, -2, 4}}, 5);
+    auto cases = oracle::make_planar_cases(20261131, 2000);
+    for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+        auto& [in, parts, speeds] = cases[i];
+        if (i % 3 == 0) {
+            parts.drive = {.by = DriveBy::profile, .table = &profile_of.table()};
+            in.drive_scale = 2 + 0.01 * static_cast<double>(i % 7);
+            in.profile_speed = 3;
+        } else {
+            parts.drive = {.by = DriveBy::torque};
+            if (i % 3 == 1) parts.drive.table = i % 2 == 0 ? &falls.table() : &turns.table(), parts.drive.over = i % 2 == 0 ? LoadArgument::crank_speed : LoadArgument::crank_angle;
+            in.drive_torque = 0.01 * static_cast<double>(i % 11);
+            in.drive_no_load_speed = static_cast<double>(i % 5) * 40;
+            in.drive_viscous = 1e-4 * static_cast<double>(i % 4);
+            in.drive_inertia = 1e-4 * static_cast<double>(i % 6);
+        }
         compare_planar_probe(best_isa(), cases[i], "planar case " + std::to_string(i));
     }
 }

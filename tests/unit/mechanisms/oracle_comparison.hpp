@@ -69,9 +69,9 @@ inline void compare(std::string const& what, oracle::Case const& c, oracle::Resu
     compare.group("position rates", r.derivative.data(), d, 2);
     compare.group("accelerations", r.derivative.data() + 2, d + 2, 2, load / c.inputs.slider_mass);
     if (oracle::states_of(c.parts.mechanism) > 10) {
-        compare.value("velocity along the way", r.derivative[10], d[10]);
-        compare.value("acceleration along the way", r.derivative[11], d[11],
-                      load / c.inputs.slider_mass + c.inputs.gravity);
+        compare.value("velocity along the way, or of the crank", r.derivative[10], d[10]);
+        double const arm = c.parts.drive.turns_freely() ? c.inputs.crank_length : 1;
+        compare.value("acceleration along the way, or of the crank", r.derivative[11], d[11], (load / c.inputs.slider_mass + c.inputs.gravity) / arm);
     }
     compare.group("attitude rates", r.derivative.data() + 4, d + 4, 3);
     double const inertia = std::min({c.inputs.slider_inertia_x, c.inputs.slider_inertia_y, c.inputs.slider_inertia_z});
@@ -98,7 +98,8 @@ inline bool compare_probe(Isa isa, oracle::Case const& c, std::string const& wha
     // The probe's impact speeds are their start value.
     auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state);
     if (r.geometry || r.contact_domain) return false;
-    Inputs const in = testing::starting_in(c.inputs, c.state);
+    Inputs in = testing::starting_in(c.inputs, c.state);
+    if (c.parts.drive.turns_freely()) in.start_angle = c.state[10], in.crank_speed = c.state[11];
     ProbeResult p;
     find_instance(isa, c.parts).probe({&in, &c.t, 1, &p});
     std::vector<double> depths(p.penetration_y, p.penetration_y + 8), forces(p.normal_force_y, p.normal_force_y + 8);

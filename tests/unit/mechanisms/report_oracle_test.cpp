@@ -53,6 +53,10 @@ SliderReport<double> report_of(oracle::Case const& c, double* rates) {
             return report_of_model<ScotchYoke>(c, rates);
         case Mechanism::free_slider:
             return report_of_model<FreeSlider>(c, rates);
+        case Mechanism::slider_crank_motor:
+            return report_of_model<SliderCrankMotor>(c, rates);
+        case Mechanism::scotch_yoke_motor:
+            return report_of_model<ScotchYokeMotor>(c, rates);
         case Mechanism::planar_slider_crank:
             break;  // has a report of its own, below
     }

@@ -32,7 +32,7 @@ using Real = long double;
 
 constexpr std::uint64_t seed = 2010;
 constexpr Parts driven{.mechanism = Mechanism::planar_slider_crank};
-constexpr Parts released{.mechanism = Mechanism::planar_slider_crank, .free_crank = true};
+constexpr Parts released{.mechanism = Mechanism::planar_slider_crank, .drive = {.by = DriveBy::nothing}};
 
 double number(Real x) { return static_cast<double>(x); }
 
@@ -71,7 +71,7 @@ TEST(OraclePlanar, ChangesItsEnergyByThePowersAlone) {
     for (PlanarCase const& c : oracle::make_planar_cases(seed, 960)) {
         PlanarMechanism const mechanism(c.inputs, c.parts);
         PlanarState const state = oracle::planar_start(c.inputs);
-        Real const torque = c.parts.free_crank ? 0.3L : 0;
+        Real const torque = c.parts.drive.turns_freely() ? 0.3L : 0;
         auto const at = [&](PlanarState const& s) { return mechanism.at(s, &c.impact_speeds, torque); };
         PlanarResult const r = at(state);
         Real const step = small_step(state, r);
@@ -124,10 +124,10 @@ TEST(OraclePlanar, StartsWhereTheInputsPutTheBlock) {
 TEST(OraclePlanar, MovesAFreeCrankByTheTorqueOfADriveAsTheDriveDoes) {
     for (PlanarCase const& c : oracle::make_planar_cases(seed + 3, 240)) {
         Parts parts = c.parts;
-        parts.free_crank = false;
+        parts.drive.by = DriveBy::speed;
         PlanarState const state = oracle::planar_start(c.inputs);
         PlanarResult const held = PlanarMechanism(c.inputs, parts).at(state, &c.impact_speeds);
-        parts.free_crank = true;
+        parts.drive.by = DriveBy::nothing;
         PlanarMechanism const loose(c.inputs, parts);
         PlanarResult const pushed = loose.at(state, &c.impact_speeds, held.drive_torque);
         EXPECT_EQ(held.derivative[3], 0);
@@ -240,7 +240,7 @@ TEST(RandomPlanarStates, TouchInEveryWayWithAllParts) {
         modes.insert({r.surfaces, r.points});
         for (int i = 0; i < 4; ++i)
             if (r.depth[static_cast<std::size_t>(i)] > 0) walls.insert(i + 4 * r.surfaces);
-        parts.insert(static_cast<int>(c.parts.damping) + 3 * c.parts.friction + 6 * c.parts.free_crank);
+        parts.insert(static_cast<int>(c.parts.damping) + 3 * c.parts.friction + 6 * c.parts.drive.turns_freely());
         for (Real const rate : r.derivative) EXPECT_TRUE(std::isfinite(rate));
         auto const values = std::bit_cast<std::array<double, sizeof(Inputs) / sizeof(double)>>(c.inputs);
         for (std::size_t i = 0; i < values.size(); ++i) seen[i].insert(values[i]);

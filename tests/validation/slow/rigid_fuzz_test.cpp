@@ -60,7 +60,7 @@ Found search(std::size_t count, double most_friction, Parts const& parts, Draws 
     std::ranges::sort(found.costs);
     auto const& c = found.costs;
     std::printf("%s, friction to %.1f, %s crank: %zu members, %zu finished, %zu jammed, %zu spent their steps, %zu others; right-hand sides: median %.0f, p99 %.0f, most %.0f, %zu above a hundred medians\n",
-                info(parts.mechanism).name, most_friction, parts.free_crank ? "free" : "driven", found.members, found.finished, found.jammed, found.spent, found.others, c[c.size() / 2],
+                info(parts.mechanism).name, most_friction, parts.drive.turns_freely() ? "free" : "driven", found.members, found.finished, found.jammed, found.spent, found.others, c[c.size() / 2],
                 c[c.size() * 99 / 100], c.back(), found.dear());
     return found;
 }

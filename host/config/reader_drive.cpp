@@ -1,0 +1,169 @@
+// [drive]: what moves the mechanism.
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "host/backend/own_modules.hpp"
+#include "host/config/drive.hpp"
+#include "host/config/reader.hpp"
+
+namespace slideway {
+namespace {
+
+/// Keys of [drive] beside its kind, and which kinds have them.
+constexpr struct {
+    std::string_view name;
+    unsigned kinds;  // a bit for each DriveBy
+} drive_keys[] = {
+    {"drive.torque", 0b0100},        {"drive.no_load_speed", 0b0100}, {"drive.viscous", 0b1100}, {"drive.inertia", 0b1100}, {"drive.scale", 0b0010},
+    {"drive.table", 0b0110},         {"drive.column", 0b0110},        {"drive.over", 0b0100},    {"drive.gives", 0b0010},
+    {"drive.interpolation", 0b0110}, {"drive.repeats", 0b0110},
+};
+
+constexpr std::string_view angle_unit[] = {"rad"}, speed_unit[] = {"rad/s"}, place_unit[] = {"m"}, velocity_unit[] = {"m/s"},
+                           torque_units[] = {"1", "N m"};
+
+/// Reads one table [drive].
+class DriveReader {
+public:
+    DriveReader(Reading& reading, DriveBy by) : reading_(reading), scene_(reading.scene), by_(by) {}
+
+    void read() {
+        scene_.parts.drive.by = by_;
+        for (auto const& [name, kinds] : drive_keys) {
+            if (Node const* const node = reading_.given(name); node != nullptr && (kinds >> static_cast<int>(by_) & 1u) == 0)
+                refuse(*node, {fmt::format("drive.kind \"{}\" does not have it", drive_names[static_cast<int>(by_)]), "remove it, or use another kind"});
+        }
+        if (by_ == DriveBy::profile) read_profile();
+        if (by_ == DriveBy::torque) read_torque();
+    }
+
+private:
+    Node const& needed(std::string_view name, std::string_view why, std::string_view advice) const {
+        Node const* const node = reading_.given(name);
+        if (node == nullptr) refuse_missing(*reading_.given("drive.kind"), name, why, advice);
+        return *node;
+    }
+    std::size_t choice(std::string_view name, std::size_t preset) const {
+        Node const* const given = reading_.given(name);
+        return given == nullptr ? preset : read_choice(*given, setting(name));
+    }
+    bool repeats(bool preset) const {
+        Node const* const given = reading_.given("drive.repeats");
+        return given == nullptr ? preset : read_boolean(*given);
+    }
+    Interpolation interpolation() const { return static_cast<Interpolation>(choice("drive.interpolation", 0)); }
+
+    void read_profile() {
+        bool const turns = info(scene_.parts.mechanism).drive == DriveKind::crank;
+        Node const& gives = needed("drive.gives", "what the profile's column is", turns ? "add gives = \"angle\" or \"speed\"" : "add gives = \"position\" or \"speed\"");
+        auto const what = static_cast<ProfileGives>(read_choice(gives, setting("drive.gives")));
+        if (what == (turns ? ProfileGives::position : ProfileGives::angle))
+            refuse(gives, {turns ? "a crank has an angle" : "a carriage has no angle", turns ? "use \"angle\" or \"speed\"" : "use \"position\" or \"speed\""});
+        Node const& file = needed("drive.table", "a profile is a table over time", "add table = \"profile.csv\"");
+        Node const& column = needed("drive.column", "which column of the table is the profile", "add column = \"speed\", or what it is called");
+        auto const units = what == ProfileGives::angle ? std::span(angle_unit) : what == ProfileGives::position ? std::span(place_unit)
+                                                     : std::span(turns ? speed_unit : velocity_unit);
+        auto drive = std::make_shared<SceneDrive>();
+        TableKind const kind{"time", "s", units, repeats(false), interpolation(), what == ProfileGives::angle};
+        if (kind.interpolation == Interpolation::linear && what != ProfileGives::speed)
+            refuse(*reading_.given("drive.interpolation"), {"speeds would jump at each row", "use \"spline\" or \"monotone\", or give speeds"});
+        drive->table = read_table_of(file, column, scene_.path, kind);
+        drive->gives = what;
+        shape(*drive, turns, file);
+        scene_.parts.drive.table = drive->plan_table();
+        scene_.drive = std::move(drive);
+    }
+
+    /// A speed becomes what it comes to; a crank begins at start_angle.
+    void shape(SceneDrive& drive, bool turns, Node const& file) const {
+        auto function = *drive.table.function;
+        if (drive.gives == ProfileGives::speed) function = function.integral();
+        if (!turns && drive.gives == ProfileGives::speed && function.table().repeats) bring_back(function, file);
+        PieceTable const table = function.table();
+        if (!table.repeats && table.low > 0)
+            refuse(file, {fmt::format("its first time is {} s, and a run begins at 0", table.low), "begin it at 0 or earlier"});
+        if (!turns && table.repeats && std::abs(table.advance) > 1e-9 * function.range())
+            refuse(file, {fmt::format("the carriage is {:.3g} m further each time that it repeats", table.advance), "end it where it begins, or set repeats = false"});
+        if (turns || drive.gives == ProfileGives::speed) function = function.less_its_value_at(0);
+        drive.table.function = std::make_shared<PieceFunction const>(std::move(function));
+    }
+
+    /// Speeds that are measured do not come back to the last digit: up to a hundredth of the way is shared out over the period.
+    void bring_back(PieceFunction& function, Node const& file) const {
+        PieceTable const table = function.table();
+        double const drift = table.advance, length = table.high - table.low;
+        if (std::abs(drift) > 0.01 * function.range() || drift == 0) return;
+        function = function.less_a_line(drift / length);
+        if (std::abs(drift) > 1e-6 * function.range())
+            reading_.warn(fmt::format("{}: {} does not come back by {:.3g} m in a period: {:.3g} m/s are taken off its speeds", file.where, file.name, drift, drift / length));
+    }
+
+    void read_torque() {
+        needed("drive.torque", "what the motor turns with", "add torque = \"2 N m\"");
+        Node const* const file = reading_.given("drive.table");
+        if (file == nullptr) {
+            for (std::string_view const name : {"drive.over", "drive.column", "drive.interpolation", "drive.repeats"}) {
+                if (Node const* const idle = reading_.given(name)) refuse(*idle, {"it is of a table, and there is none", "give table, or remove it"});
+            }
+            return;
+        }
+        std::size_t const over = read_choice(needed("drive.over", "what the torque is read over", "add over = \"crank_speed\""), setting("drive.over"));
+        Node const& column = needed("drive.column", "which column of the table is the torque", "add column = \"torque\", or what it is called");
+        static constexpr LoadArgument arguments[] = {LoadArgument::crank_speed, LoadArgument::crank_angle, LoadArgument::time};
+        static constexpr std::string_view units[] = {"rad/s", "rad", "s"};
+        scene_.parts.drive.over = arguments[over];
+        auto drive = std::make_shared<SceneDrive>();
+        drive->table = read_table_of(*file, column, scene_.path,
+                                     {drive_arguments[over], units[over], torque_units, repeats(arguments[over] == LoadArgument::crank_angle), interpolation()});
+        scene_.parts.drive.table = drive->plan_table();
+        scene_.drive = std::move(drive);
+    }
+
+    Reading& reading_;
+    Scene& scene_;
+    DriveBy by_;
+};
+
+}  // namespace
+
+void read_drive(Reading& reading) {
+    Scene& scene = reading.scene;
+    Node const* const table = reading.given("drive");
+    if (table == nullptr) return;
+    Node const* const kind = reading.given("drive.kind");
+    auto const by = kind == nullptr ? DriveBy::speed : static_cast<DriveBy>(read_choice(*kind, setting("drive.kind")));
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    if (mechanism.drive == DriveKind::none || module_of(scene.parts.mechanism) != nullptr)
+        throw SceneError(fmt::format("{}: drive has no meaning for kind = \"{}\"; remove it", table->where, mechanism.name));
+    DrivePlan plan;
+    plan.by = by;
+    if (plan.turns_freely()) {
+        auto const form = turning_form(scene.parts.mechanism);
+        if (!form) refuse(*kind, {fmt::format("a {} has no crank that could turn freely", mechanism.name), "use \"speed\" or \"profile\""});
+        scene.parts.mechanism = *form;
+    }
+    DriveReader(reading, by).read();
+}
+
+void finish_drive(Scene& scene) {
+    if (scene.parts.drive.by != DriveBy::profile) return;
+    Inputs& in = scene.inputs;
+    PieceFunction const& profile = *scene.drive->table.function;
+    double const fastest = profile.steepest() * std::abs(in.drive_scale);
+    in.profile_speed = profile.slope(0);
+    // Tolerances are meant against the drive's rate: that of a crank as fast as the fastest here, of a carriage as fast and as far.
+    if (info(scene.parts.mechanism).drive == DriveKind::crank) in.crank_speed = fastest;
+    if (info(scene.parts.mechanism).drive == DriveKind::carriage && fastest > 0) in.carriage_speed = fastest, in.stroke = profile.range() * std::abs(in.drive_scale);
+}
+
+void check_profile(Reading const& reading, double longest) {
+    Scene const& scene = reading.scene;
+    if (scene.parts.drive.by != DriveBy::profile || scene.parts.drive.table->repeats) return;
+    double const end = scene.parts.drive.table->high;
+    if (longest > end * (1 + 1e-12))
+        refuse(*reading.given("drive.table"), {fmt::format("it ends at {:.10g} s, and the run at {:.10g} s", end, longest), "add rows, end the run earlier, or set repeats = true"});
+}
+
+}  // namespace slideway

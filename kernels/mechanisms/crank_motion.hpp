@@ -1,0 +1,56 @@
+#pragma once
+
+#include "kernels/loads/drive_plan.hpp"
+#include "kernels/loads/table_value.hpp"
+#include "kernels/mechanisms/motor.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// How something moves that has one coordinate: place, velocity and acceleration, or angle, speed and its rate.
+template <class Real> struct GivenMotion { Real place, velocity, acceleration; };
+
+/// A drive's profile at a time.  Lanes look theirs up one by one.
+template <class Real> SLIDEWAY_NOINLINE GivenMotion<Real> profile_motion(PieceTable const& table, Real const& t) {
+    if constexpr (is_tangent<Real>) {
+        using Number = decltype(t.value);
+        GivenMotion<Number> motion;
+        Number jerk = t.value;
+        for (int i = 0; i < lanes<Number>; ++i) {
+            auto const point = table_point(table, lane(t.value, i));
+            set_lane(motion.place, i, point.value);
+            set_lane(motion.velocity, i, point.slope);
+            set_lane(motion.acceleration, i, point.bend);
+            set_lane(jerk, i, point.jerk);
+        }
+        return {{motion.place, motion.velocity * t.slope}, {motion.velocity, motion.acceleration * t.slope}, {motion.acceleration, jerk * t.slope}};
+    } else {
+        GivenMotion<Real> motion;
+        for (int i = 0; i < lanes<Real>; ++i) {
+            auto const point = table_point(table, lane(t, i));
+            set_lane(motion.place, i, point.value);
+            set_lane(motion.velocity, i, point.slope);
+            set_lane(motion.acceleration, i, point.bend);
+        }
+        return motion;
+    }
+}
+
+/// Angle [rad], speed and acceleration of a crank that is driven: θ0 + ω t, or θ0 and what a profile turns by (docs/model.md 15).
+/// @param p has crank_speed, start_angle and motor
+template <class Real, class Parameters>
+SLIDEWAY_FN GivenMotion<Real> driven_crank(DrivePlan const& drive, Real t, Parameters const& p) {
+    if (drive.by != DriveBy::profile) return {fma(p.crank_speed, t, p.start_angle), p.crank_speed, Real(0.0)};
+    auto const motion = profile_motion(*drive.table, t);
+    auto const& scale = p.motor.scale;
+    return {fma(scale, motion.place, p.start_angle), scale * motion.velocity, scale * motion.acceleration};
+}
+
+/// What loads read of the crank of a guide; 0 where none turns.
+template <class Guide, class Real, class Parameters>
+SLIDEWAY_FN GivenMotion<Real> crank_of(Real t, Real const* s, Parameters const& p, DrivePlan const& drive) {
+    if constexpr (requires { Guide::crank(t, s, p, drive); }) return Guide::crank(t, s, p, drive);
+    else return {Real(0.0), Real(0.0), Real(0.0)};
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "kernels/inputs.hpp"
+#include "kernels/loads/drive_plan.hpp"
+#include "kernels/loads/table_value.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Numbers of [drive] (docs/model.md 15).
+template <class Real> struct MotorParameters {
+    Real torque;   // T0 [N m]
+    Real droop;    // 1/ω0, 0 of a torque that does not fall with the speed [s/rad]
+    Real viscous;  // c [N m s/rad]
+    Real inertia;  // J of crank and flywheel about the shaft [kg m²]
+    Real scale;    // of a profile
+};
+
+SLIDEWAY_FN MotorParameters<double> motor_parameters(Inputs const& in) {
+    double const own = in.crank_inertia + 0.25 * in.crank_mass * in.crank_length * in.crank_length;
+    return {in.drive_torque, in.drive_no_load_speed == 0 ? 0 : 1 / in.drive_no_load_speed, in.drive_viscous, own + in.drive_inertia, in.drive_scale};
+}
+
+/// T = f T0 (1 − ω/ω0) − c ω [N m], f what the drive's table is over angle, time or speed, 1 without one.
+template <class Real>
+SLIDEWAY_FN Real motor_torque(DrivePlan const& drive, MotorParameters<Real> const& motor, Real t, Real angle, Real speed) {
+    Real torque = motor.torque * fnma(speed, motor.droop, Real(1.0));
+    if (drive.table != nullptr) {
+        Real const over = drive.over == LoadArgument::crank_angle ? angle : drive.over == LoadArgument::time ? t : speed;
+        torque = torque * table_value(*drive.table, over);
+    }
+    return fnma(motor.viscous, speed, torque);
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

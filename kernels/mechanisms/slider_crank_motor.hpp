@@ -1,0 +1,117 @@
+#pragma once
+
+#include "kernels/mechanisms/crank_motion.hpp"
+#include "kernels/mechanisms/crank_states.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/mechanisms/spatial_slider.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What crank and rod do where nothing prescribes the crank's angle θ: masses of (θ, y, z), of which x' = κθ θ' + κy y' + κz z'.
+template <class Real> struct TurningMasses {
+    Real slope;            // κθ = r (−sin θ − κy cos θ) [m]
+    Real own, by_y, by_z;  // row of θ [kg m²], [kg m]
+
+    /// @param x, y of the crank pin
+    SLIDEWAY_FN TurningMasses(Real x, Real y, Real ky, Real kz, SliderParameters<Real> const& p) {
+        slope = negated(fma(ky, x, y));
+        Real const rod = fnma(p.m_ab, y, p.mass * slope);  // what moves along x with it
+        own = fma(slope, fnma(p.m_ab, y, rod), fma(p.m_aa, p.crank_length * p.crank_length, p.motor.inertia));
+        by_y = fma(ky, rod, p.m_ab * x);
+        by_z = kz * rod;
+    }
+};
+
+/// Crank and rod on a motor, or without a drive: θ and θ' are numbers 10 and 11 of the state (docs/model.md 15).
+struct CrankAndRodOnMotor {
+    using Base = CrankStateBase;
+    static constexpr MechanismInfo info = crank_state_info(CrankAndRod::info, "slider_crank_motor");
+
+    template <class Real> class At : public RodOnPin<Real> {
+    public:
+        SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive, Faults<Real>& faults)
+            : RodOnPin<Real>({s[10], s[11], Real(0.0)}, false, s, p, faults), speed_(s[11]), motor_(motor_torque(drive, p.motor, t, s[10], s[11])),
+              torque_(motor_) {}
+
+        /// A torque on the crank, beside the motor's.
+        SLIDEWAY_FN void turn(Real torque) { torque_ = torque_ + torque; }
+
+        /// Three symmetric equations, of (θ, y, z); those of y and z are eliminated first.
+        SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& contact_force, SliderParameters<Real> const& p) {
+            Real const one(1.0), x = this->pin_.x, y = this->pin_.y;
+            TurningMasses<Real> const m(x, y, ky_, kz_, p);
+            auto const f = this->felt(this->weighed(contact_force, p), p);
+            // Of the rod's weight what the pin carries, and the crank's.
+            Real const carried = fma(p.rod_mass, one - p.rod_mass_center, p.crank_moment / p.crank_length);
+            Real const weight = carried * fms(p.gravity_y, x, p.gravity_x * y);
+            Real const of_turning = fma(m.slope, f.pull, fma(p.m_ab * y, this->bias_, weight + torque_));
+            Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
+            Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
+            Real const to_y = fms(kz2, m.by_y, kyz * m.by_z) * scale, to_z = fms(ky2, m.by_z, kyz * m.by_y) * scale;
+            Real const left = fnma(to_z, m.by_z, fnma(to_y, m.by_y, m.own));
+            turning_ = fnma(to_z, f.z, fnma(to_y, f.y, of_turning)) / left;
+            Real const fy = fnma(m.by_y, turning_, f.y), fz = fnma(m.by_z, turning_, f.z);
+            Real const ay = fms(kz2, fy, kyz * fz) * scale, az = fms(ky2, fz, kyz * fy) * scale;
+            return {fma(m.slope, turning_, fma(ky_, ay, fma(kz_, az, this->bias_))), ay, az};
+        }
+
+        SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real* rates) const {
+            rates[10] = speed_;
+            rates[11] = turning_;
+        }
+
+        template <class Report>
+        SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
+                              Vec3<Real> const& contact_force, SliderParameters<Real> const& p, bool powers_alone, Report& report) const {
+            auto pin = this->pin_motion();
+            pin.acceleration.x = fnma(turning_, pin.position.y, pin.acceleration.x);
+            pin.acceleration.y = fma(turning_, pin.position.x, pin.acceleration.y);
+            report.fill_crank(pin, centre, this->d_, turning, contact_force, p, powers_alone);
+            report.crank_power = motor_ * speed_;
+            if (powers_alone) return;
+            report.drive_torque = motor_;
+            Real const height = fma(p.gravity_x, pin.position.x, p.gravity_y * pin.position.y) * (p.crank_moment / p.crank_length);
+            report.energy = fma(Real(0.5) * p.motor.inertia * speed_, speed_, report.energy - height);
+        }
+
+    private:
+        using RodOnPin<Real>::ky_, RodOnPin<Real>::kz_;
+        Real speed_, motor_, torque_;
+        Real turning_;  // θ''
+    };
+
+    /// Of (vy, vz) the masses that forces across the rod move while the crank gives way.
+    template <class Real> class Constraint : public RodConstraint<Real> {
+    public:
+        SLIDEWAY_FN Constraint(Real, Real const* s, SliderParameters<Real> const& p, DrivePlan const&)
+            : RodConstraint<Real>({s[10], s[11], Real(0.0)}, s, p), turning_(this->pin_.x, this->pin_.y, this->ky_, this->kz_, p) {}
+
+        SLIDEWAY_FN void masses(SliderParameters<Real> const& p, SliderLinearisation<Real>& out) const {
+            RodConstraint<Real>::masses(p, out);
+            Real const y = turning_.by_y / turning_.own, z = turning_.by_z / turning_.own;
+            out.mass_y = fnma(y, turning_.by_y, out.mass_y);
+            out.mass_z = fnma(z, turning_.by_z, out.mass_z);
+            out.mass_yz = fnma(y, turning_.by_z, out.mass_yz);
+        }
+        SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const {
+            auto const across = RodConstraint<Real>::project(force);
+            Real const turned = turning_.slope * force.x / turning_.own;
+            return {fnma(turned, turning_.by_y, across.y), fnma(turned, turning_.by_z, across.z)};
+        }
+
+    private:
+        TurningMasses<Real> turning_;
+    };
+
+    template <class Real> SLIDEWAY_FN static Real along(Real, Real const* s, SliderParameters<Real> const& p, DrivePlan const&) {
+        return along_rod(s[10], s, p);
+    }
+    template <class Real> SLIDEWAY_FN static GivenMotion<Real> crank(Real, Real const* s, SliderParameters<Real> const&, DrivePlan const&) {
+        return {s[10], s[11], Real(0.0)};
+    }
+};
+
+using SliderCrankMotor = SpatialSlider<CrankAndRodOnMotor>;
+
+}  // namespace slideway::inline SLIDEWAY_ISA
