@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
 #include "host/config/units.hpp"
@@ -80,7 +79,6 @@ std::vector<Key const*> make_every_key() {
         if (key.member != &Inputs::restitution) continue;  // the last of contacts
         for (LawInfo const& law : laws()) add(law.keys);
     }
-    for (Key const* const key : known_load_keys()) keys.push_back(key);
     for (Key const& key : double_keys) keys.push_back(&key);
     return keys;
 }
@@ -151,7 +149,6 @@ bool counts_for(Key const& key, Mechanism mechanism) {
 
 bool counts_for(Key const& key, Parts const& parts) {
     if (!counts_for(key, parts.mechanism)) return false;
-    if (key.group == KeyGroup::load) return is_of(key, parts.loads);
     // Rigid contacts stick and slip exactly (docs/model.md 13).
     if (parts.rigid && key.group == KeyGroup::smooth_friction) return false;
     // What gives way under a face.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -52,7 +53,12 @@ public:
 
     /// Of a row the load that kernels see, its places among Inputs::load_a … filled in.
     void add(Row row, Load const& load);
+    /// Makes the key of a number that the scene gives a load.  @param name dotted  @return its place among Inputs::load_a …; there are
+    /// most_load_numbers of them
+    int add_key(std::string name, LoadNumber const& number);
     std::span<Row const> rows() const { return rows_; }
+    std::deque<Key> const& keys() const { return keys_; }
+    Key const* find_key(std::string_view name) const;
     Load const& load(std::size_t row) const { return loads_[row]; }
     /// For as long as this lives and nothing is added.
     LoadList list() const { return {loads_.data(), static_cast<int>(loads_.size())}; }
@@ -60,17 +66,11 @@ public:
 private:
     std::vector<Row> rows_;
     std::vector<Load> loads_;
+    std::deque<std::string> names_;
+    std::deque<Key> keys_;
 };
 
-// Keys of loads are known from the first scene on that has them: numeric_keys() has them, and a scene those of its own loads (counts_for).
-
-/// Makes the keys of a scene's loads known.  @param names dotted, those of one scene  @return for each its place among Inputs::load_a …
-/// @throws std::length_error where there are too many of them
-std::vector<int> know_load_keys(std::span<std::string const> names, std::span<LoadNumber const* const> numbers);
-/// All that are known.
-std::vector<Key const*> known_load_keys();
-std::size_t known_load_key_count();
-/// Whether a key is of one of these loads.
-bool is_of(Key const& key, LoadList const& loads);
+/// The first load whose table is over time, or over more than one turn of the crank: where a member begins, it begins anew.  "" where there is none.
+std::string_view jumping_load(SceneLoads const* loads);
 
 }  // namespace slideway

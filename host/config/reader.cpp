@@ -65,7 +65,7 @@ void check_inputs(Reading const& reading) {
     if (!found) return;
     Node const* node = nullptr;
     for (Key const* const key : {found->other, found->key}) {
-        for (GivenKey const& entry : given_keys(reading.root)) {
+        for (GivenKey const& entry : given_keys(reading)) {
             if (key != nullptr && entry.key->overlaps(*key)) node = entry.node;  // the last one took effect
         }
     }

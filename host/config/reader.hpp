@@ -39,7 +39,7 @@ struct GivenKey {
     Node const* node;
 };
 /// In the order in which they take effect: those of the file, then the options.
-std::vector<GivenKey> given_keys(Node const& root);
+std::vector<GivenKey> given_keys(Reading const& reading);
 
 /// A file that a scene names.
 struct InputFile {
@@ -106,8 +106,10 @@ bool varies(Scene const& scene, std::string_view name);
 bool is_of_start(Key const& key);
 /// Whether steps end at contacts whatever the scene says.
 bool always_locates(Scene const& scene);
-/// What to write instead of a name that is no numeric key of the physics.
-std::string key_advice(std::string_view name);
+/// What to write instead of a name that is no numeric key of the scene.
+std::string key_advice(std::string_view name, Scene const& scene);
+/// Refuses a name of a load's number that the scene does not give: it has no place among those of a member.
+void refuse_ungiven(std::string_view where, std::string_view name, Scene const& scene);
 
 /// Periods of the drive that members may have [s]; the most is infinite where a limit lets it stand still.
 struct PeriodRange {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
@@ -45,6 +46,7 @@ constexpr struct {
     {"study", [](Scene const& s) { return std::string(name_of(s.study)); }},
     {"design", [](Scene const& s) { return std::string(name_of(s.design.kind)); }},
     {"parameter", [](Scene const& s) { return std::string(s.chaos.parameter->name); }},
+    {"jumping_load", [](Scene const& s) { return std::string(jumping_load(s.loads.get())); }},
     {"rest", [](Scene const& s) { return why_no_period(s.parts); }},
     {"method", [](Scene const& s) { return std::string(name_of(s.integrator.method)); }},
     {"methods", [](Scene const& s) { return listed(methods_of(s.parts)); }},

@@ -28,23 +28,26 @@ struct Column {
     bool has_missing = false;            // in words, such as NA
 };
 
-[[noreturn]] void refuse_column(Node const& header) {
-    refuse(header, {"only numeric keys of the physics can be columns", key_advice(column_header(header.text).name)});
+[[noreturn]] void refuse_column(Node const& header, Scene const& scene) {
+    std::string const name = column_header(header.text).name;
+    refuse_ungiven(header.where, name, scene);
+    refuse(header, {"only numeric keys of the physics can be columns", key_advice(name, scene)});
 }
 
 /// Whether a header may be that of texts: it has no unit, is like no key, and does not begin with a table of keys.
-bool may_name_texts(std::string_view header) {
-    if (header.empty() || header.find('[') != header.npos || !nearest_name(header, numeric_key_names()).empty()) return false;
+bool may_name_texts(std::string_view header, Scene const& scene) {
+    auto const names = numeric_key_names(scene);
+    if (header.empty() || header.find('[') != header.npos || !nearest_name(header, names).empty()) return false;
     std::string_view const table = header.substr(0, header.find('.'));
-    return table == header || std::ranges::none_of(numeric_keys(), [&](Key const& key) { return key.name.starts_with(table) && key.name[table.size()] == '.'; });
+    return table == header || std::ranges::none_of(names, [&](std::string_view name) { return name.starts_with(table) && name[table.size()] == '.'; });
 }
 
 /// "joint.clearance [mm]": the key, and how its numbers become SI ones; or "part", above texts.
-Column read_column(Node const& node) {
+Column read_column(Node const& node, Scene const& scene) {
     ColumnHeader const header = column_header(node.text);
-    Column column{find_key(header.name), UnitFactor(1), {}, node};
+    Column column{find_key(header.name, scene), UnitFactor(1), {}, node};
     if (column.key == nullptr) {
-        if (!may_name_texts(node.text)) refuse_column(node);
+        if (!may_name_texts(node.text, scene)) refuse_column(node, scene);
         return column;
     }
     column.unit = header.unit.value_or(std::string(column.key->unit));
@@ -73,7 +76,7 @@ public:
     /// Reads the header, and adds a variation for each of its keys.
     MemberRows(CsvReader& rows, Reading& reading, MemberTable& table) : rows_(rows), scene_(reading.scene), table_(table) {
         for (std::string const& field : rows.fields()) {
-            columns_.push_back(read_column(field_node(rows, fmt::format("column {}", columns_.size() + 1), field)));
+            columns_.push_back(read_column(field_node(rows, fmt::format("column {}", columns_.size() + 1), field), scene_));
             Column const& column = columns_.back();
             if (column.key == nullptr) {
                 table.labelled += fmt::format("{}{}", table.labelled.empty() ? "" : ", ", column.header.text);
@@ -105,7 +108,7 @@ public:
         for (Column const& column : columns_) {
             if (column.key != nullptr) continue;
             // Of numbers, or of missing ones, it is a key that was mistyped.
-            if (column.text_line == 0 && (column.number_line != 0 || column.has_missing)) refuse_column(column.header);
+            if (column.text_line == 0 && (column.number_line != 0 || column.has_missing)) refuse_column(column.header, scene_);
             if (column.number_line == 0) continue;
             refuse(column.header, {fmt::format("no key of the physics, and below it stand a number, in line {}, and a text, in line {}",
                                                column.number_line, column.text_line),
@@ -251,8 +254,9 @@ void take_members(Scene& scene, std::vector<std::string> const& names, std::span
     table->values.assign(values.begin(), values.end());
     table->checksum = fnv1a(std::as_bytes(values));
     for (std::string const& name : names) {
-        Key const* const key = find_key(name);
-        if (key == nullptr) fail(fmt::format("{}: only numeric keys of the physics can be inputs of members; {}", name, key_advice(name)));
+        Key const* const key = find_key(name, scene);
+        if (key == nullptr) refuse_ungiven(scene.path, name, scene);
+        if (key == nullptr) fail(fmt::format("{}: only numeric keys of the physics can be inputs of members; {}", name, key_advice(name, scene)));
         if (!counts_for(*key, scene.parts)) fail(fmt::format("{} has no meaning for this mechanism and contact law; leave it out", name));
         std::erase_if(scene.variations, [&](Variation const& other) { return other.column == Variation::no_column && other.key->overlaps(*key); });
         for (Variation const& other : scene.variations) {

@@ -136,6 +136,10 @@ Scene read_scene(std::string const& path, Overrides const& overrides = {});
 /// The same from the text of a scene; `name` stands for the path in messages.
 Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides = {});
 
+/// A numeric key of the physics or of the scene's loads; nullptr when there is none.
+Key const* find_key(std::string_view dotted_name, Scene const& scene);
+std::vector<std::string_view> numeric_key_names(Scene const& scene);
+
 /// Makes the members those of given inputs: design "table" without a file.  What the keys varied by before counts no more.
 /// @param names dotted keys  @param values in SI, one member a row  @throws SceneError if one of them is no such key, or the study's design is
 /// given otherwise
