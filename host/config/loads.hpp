@@ -1,7 +1,6 @@
 // [load.<name>]: what acts on a mechanism beside its weight, its contacts and its drive (docs/model.md 14).
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <memory>
 #include <span>
@@ -32,10 +31,9 @@ std::span<Setting const> load_settings();
 inline constexpr std::string_view load_bodies[] = {"slider", "crank"}, load_frames[] = {"ground", "slider"};
 inline constexpr std::string_view load_arguments[] = {"crank_angle", "time", "x", "vx"};  // in the order of LoadArgument, behind `nothing`
 
-/// The table of a load, as it was read.
+/// What a load has of its table (find_table of load.<name>.table).
 struct LoadTable {
-    std::string path, column;
-    std::uint64_t checksum = 0;  // FNV-1a of the file
+    std::string column;
     std::size_t rows = 0;
     double narrowest = 0, span = 0;  // the least distance of two rows, and that of the first and the last
     Interpolation interpolation = Interpolation::spline;

@@ -24,6 +24,7 @@ struct Reading {
     Scene& scene;
     Settings keys = known_keys();
     KeyRules rules = key_rules();
+    Scene const* former = nullptr;  // whose tables count (parse_scene)
 
     Node const* given(std::string_view name) const { return root.find_path(name); }
     /// The first of them that is given.
@@ -41,14 +42,9 @@ struct GivenKey {
 /// In the order in which they take effect: those of the file, then the options.
 std::vector<GivenKey> given_keys(Reading const& reading);
 
-/// A file that a scene names.
-struct InputFile {
-    std::string path;   // from the root
-    std::string name;   // for messages
-    std::string bytes;
-};
-/// From the scene's folder on, at most 256 MiB.
-InputFile read_file_beside(Node const& node, std::string const& scene);
+/// The file of a table that a node names, from the scene's folder on, at most 256 MiB: from then on among Scene::tables.  One that is given from the
+/// root on and is not there, as in the resolved scene of a study that was moved, may lie beside the scene.
+TableFile read_table_file(Reading& reading, Node const& node);
 /// A field of its row for messages: `members.csv:3: name is "text" (…); …`.
 Node field_node(CsvReader const& table, std::string name, std::string text);
 

@@ -150,11 +150,13 @@ private:
 
     void read_file(Node const& file, std::size_t over, bool repeats) {
         LoadTable& table = row_.table;
-        InputFile input = read_file_beside(file, scene_.path);
-        table.path = input.path;
-        table.checksum = fnv1a(input.bytes);
         table.column = read_text_value(*node_.find("column"));
-        std::istringstream in(std::move(input.bytes));
+        TableFile const input = read_table_file(reading_, file);
+        if (LoadTable const* const same = former_table(input, repeats)) {
+            table = *same;
+            return;
+        }
+        std::istringstream in(*input.text);
         CsvReader rows(in, input.name);
         if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
         TwoColumns columns(rows, *node_.find("column"), load_arguments[over], argument_units[over], table.column);
@@ -176,6 +178,18 @@ private:
         table.function = function;
         table.span = columns.places.back() - columns.places.front(), table.narrowest = table.span;
         for (std::size_t i = 1; i < table.rows; ++i) table.narrowest = std::min(table.narrowest, columns.places[i] - columns.places[i - 1]);
+    }
+
+    /// What a former reading of the scene made of the same rows.
+    LoadTable const* former_table(TableFile const& file, bool repeats) const {
+        Scene const* const former = reading_.former;
+        for (std::size_t i = 0; former != nullptr && former->loads != nullptr && i < former->loads->rows().size(); ++i) {
+            auto const& [name, table] = former->loads->rows()[i];
+            TableFile const* const of = find_table(*former, fmt::format("load.{}.table", name));
+            bool const same_rows = of != nullptr && of->text == file.text && table.column == row_.table.column && former->loads->load(i).over == load_.over;
+            if (same_rows && table.interpolation == row_.table.interpolation && former->loads->load(i).table.repeats == repeats) return &table;
+        }
+        return nullptr;
     }
 
     /// A period of the crank's angle is of whole turns, of a four-stroke engine two.

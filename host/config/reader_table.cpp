@@ -203,28 +203,45 @@ Node field_node(CsvReader const& table, std::string name, std::string text) {
     return node;
 }
 
-InputFile read_file_beside(Node const& node, std::string const& scene) {
+TableFile read_table_file(Reading& reading, Node const& node) {
+    namespace fs = std::filesystem;
     constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
+    Scene& scene = reading.scene;
     std::string const& given = read_text_value(node);
     if (given.empty()) refuse(node, {"no file has this name", "write for example \"members.csv\""});
-    auto const path = (std::filesystem::path(scene).parent_path() / given).lexically_normal();
+    for (Scene const* const from : {static_cast<Scene const*>(&scene), reading.former}) {
+        if (from == nullptr) continue;
+        auto const known = std::ranges::find(from->tables, given, &TableFile::given);
+        if (known == from->tables.end()) continue;
+        TableFile same = *known;
+        same.key = node.name;
+        return scene.tables.emplace_back(std::move(same));
+    }
+    fs::path const folder = fs::path(scene.path).parent_path();
+    fs::path path = (folder / given).lexically_normal();
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
+    if (fs::path(given).is_absolute() && !fs::exists(path, ignored) && fs::exists(folder / path.filename(), ignored)) {
+        path = (folder / path.filename()).lexically_normal();
+        reading.warn(fmt::format("{}: {} is not there any more; {} is read in its place", node.where, node.name, shown_briefly(path.string())));
+    }
+    if (fs::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
     InputText input = read_input(path.string(), largest);
     if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
     if (input.error != 0)
         refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path.string()), input.why()), "check the path, from the scene's folder on"});
-    return {std::filesystem::absolute(path).lexically_normal().string(), shown_briefly(path.string()), std::move(input.text)};
+    std::uint64_t const checksum = fnv1a(input.text);
+    return scene.tables.emplace_back(TableFile{node.name, given, fs::absolute(path).lexically_normal().string(), shown_briefly(path.string()),
+                                               std::make_shared<std::string const>(std::move(input.text)), checksum});
 }
 
 void read_member_table(Reading& reading, Node const& node) {
     Scene& scene = reading.scene;
-    InputFile file = read_file_beside(node, scene.path);
+    TableFile const file = read_table_file(reading, node);
     auto table = std::make_shared<MemberTable>();
-    table->path = std::move(file.path);
-    table->name = std::move(file.name);
-    table->checksum = fnv1a(file.bytes);
-    std::istringstream in(std::move(file.bytes));
+    table->path = file.path;
+    table->name = file.name;
+    table->checksum = file.checksum;
+    std::istringstream in(*file.text);
     CsvReader rows(in, table->name);
     if (!rows.next())
         rows.fail("the table is empty (it needs a header and a row); write keys like joint.clearance above");

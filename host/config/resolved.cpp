@@ -88,7 +88,8 @@ std::string loads_text(Scene const& scene) {
             if (place != Load::none) text += number_line(number.name, scene.inputs.*load_inputs[place], number.unit);
         }
         if (table.function == nullptr) continue;
-        text += fmt::format("table = {}\n", file_text(table.path, table.rows, table.checksum));
+        TableFile const& file = *find_table(scene, fmt::format("load.{}.table", name));
+        text += fmt::format("table = {}\n", file_text(file.path, table.rows, file.checksum));
         text += fmt::format("over = \"{}\"\ncolumn = {}\n", load_arguments[static_cast<int>(load.over) - 1], toml_string(table.column));
         text += fmt::format("interpolation = \"{}\"\nrepeats = {}\n", interpolation_names[static_cast<int>(table.interpolation)], load.table.repeats);
     }

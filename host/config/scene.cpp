@@ -1,5 +1,6 @@
 #include "host/config/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -47,6 +48,11 @@ std::vector<std::string_view> numeric_key_names(Scene const& scene) {
     std::vector<std::string_view> names = numeric_key_names();
     for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->keys().size(); ++i) names.push_back(scene.loads->keys()[i].name);
     return names;
+}
+
+TableFile const* find_table(Scene const& scene, std::string_view key) {
+    auto const found = std::ranges::find(scene.tables, key, &TableFile::key);
+    return found == scene.tables.end() ? nullptr : &*found;
 }
 
 std::uint64_t member_count(Scene const& scene) {

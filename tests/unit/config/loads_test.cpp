@@ -244,5 +244,20 @@ TEST_F(SceneLoadFiles, ThatBeginAnewWithAColumnAreOfNoContinuedSweep) {
     EXPECT_EQ(error_of(scene_with("x [m], pressure\n0, 1\n1, 2\n", "x") + "start = \"continue\"\n"), "");
 }
 
+TEST_F(SceneLoadFiles, AreReadOnce) {
+    std::string const text = scene("crank_angle [deg], pressure\n0, 1\n90, 5\n360, 1\n");
+    Scene const first = scene_of(text);
+    std::filesystem::remove(folder_ / "p.csv");
+    Scene const other = parse_scene(text, "scene.toml", {{"load.gas.scale", "7"}}, &first);
+    EXPECT_EQ(other.loads->rows()[0].table.function, first.loads->rows()[0].table.function);
+    EXPECT_EQ(number(other, 0, "scale"), 7);
+    EXPECT_EQ(other.tables[0].path, first.tables[0].path);
+    // Other pieces through the same rows; not a second text of them.
+    Scene const straight = parse_scene(text, "scene.toml", {{"load.gas.interpolation", "linear"}}, &other);
+    EXPECT_EQ(straight.tables[0].text, first.tables[0].text);
+    EXPECT_NEAR(table_point(straight.parts.loads.loads[0].table, std::numbers::pi / 4).value, 3, 1e-12);
+    EXPECT_THROW(scene_of(text), SceneError);
+}
+
 }  // namespace
 }  // namespace slideway::scene_loads_test
