@@ -38,13 +38,15 @@ std::string damping_text(Parts const& parts) {
 }
 
 /// "loads plunger (indicator.csv over crank_angle), brake".
-std::string loads_text(SceneLoads const& loads) {
+std::string loads_text(Scene const& scene) {
+    SceneLoads const& loads = *scene.loads;
     std::string text = "loads";
     for (std::size_t i = 0; i < loads.rows().size(); ++i) {
         auto const& [name, table] = loads.rows()[i];
         text += fmt::format("{} {}", i == 0 ? "" : ",", name);
         if (table.function == nullptr) continue;
-        text += fmt::format(" ({} over {})", std::filesystem::path(table.path).filename().string(), load_arguments[static_cast<int>(loads.load(i).over) - 1]);
+        TableFile const& file = *find_table(scene, fmt::format("load.{}.table", name));
+        text += fmt::format(" ({} over {})", std::filesystem::path(file.path).filename().string(), load_arguments[static_cast<int>(loads.load(i).over) - 1]);
     }
     return text;
 }
@@ -71,7 +73,7 @@ void print_parts(Scene const& scene) {
     sort_out(Damping::restitution, "restitution");
     sort(scene.parts.friction, "friction");
     if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
-    if (scene.loads != nullptr) sort(true, loads_text(*scene.loads));
+    if (scene.loads != nullptr) sort(true, loads_text(scene));
     sort(!scene.sample_times.empty(), "time series");
     print_field("parts in", fmt::format("{}", fmt::join(in, "; ")));
     print_field("parts out", out.empty() ? "none" : fmt::format("{}", fmt::join(out, "; ")));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "host/config/loads.hpp"
 #include "kernels/all_laws.hpp"
 #include "kernels/all_mechanisms.hpp"
 #include "kernels/laws/list.hpp"
@@ -73,7 +72,7 @@ template <class Info, std::size_t tree> OwnModule const* module_behind(Info cons
 
 }  // namespace
 
-std::size_t known_count() { return own_module_count(ModuleKind::law) + own_module_count(ModuleKind::mechanism) + known_load_key_count(); }
+std::size_t known_count() { return own_module_count(ModuleKind::law) + own_module_count(ModuleKind::mechanism); }
 
 std::span<MechanismInfo const> mechanisms() {
     static OfAllKnown<std::vector<MechanismInfo>> all([] { return with_modules(mechanism_infos, ModuleKind::mechanism, &mechanism_info); });

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "host/config/loads.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
@@ -81,7 +80,6 @@ std::vector<Key const*> make_every_key() {
         if (key.member != &Inputs::restitution) continue;  // the last of contacts
         for (LawInfo const& law : laws()) add(law.keys);
     }
-    for (Key const* const key : known_load_keys()) keys.push_back(key);
     for (Key const& key : double_keys) keys.push_back(&key);
     return keys;
 }
@@ -163,7 +161,6 @@ bool sets_motion(Key const& key) {
 
 bool counts_for(Key const& key, Parts const& parts) {
     if (!counts_for(key, parts.mechanism)) return false;
-    if (key.group == KeyGroup::load) return is_of(key, parts.loads);
     if (key.group == KeyGroup::drive) return is_of_drive(key, parts.drive);
     // A profile says how fast and how far.
     bool const of_motion = sets_motion(key), by_profile = parts.drive.by == DriveBy::profile;

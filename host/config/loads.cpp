@@ -1,10 +1,8 @@
 #include "host/config/loads.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <deque>
-#include <mutex>
-#include <stdexcept>
+#include <numbers>
 
 #include "host/config/settings.hpp"
 #include "kernels/inputs.hpp"
@@ -41,25 +39,6 @@ constexpr Setting other_rows[] = {
      .meaning = "whether the table begins anew behind its last row; else the load stays as it is there", .preset = "true over crank_angle, else false"},
 };
 
-/// Keys of all loads that scenes of this process had.  Places of names that no scene has together may be the same.
-struct KnownKeys {
-    std::mutex access;
-    std::deque<std::string> names;
-    std::deque<Key> keys;
-    std::atomic<std::size_t> count = 0;  // of keys, for those who wait for nobody
-};
-KnownKeys& known() {
-    static KnownKeys all;
-    return all;
-}
-
-Key const* known_key(KnownKeys const& all, std::string_view name) {
-    auto const found = std::ranges::find(all.keys, name, &Key::name);
-    return found == all.keys.end() ? nullptr : &*found;
-}
-
-int place_of(Key const& key) { return static_cast<int>(std::ranges::find(load_inputs, key.member) - std::begin(load_inputs)); }
-
 }  // namespace
 
 std::span<LoadNumber const> load_numbers() { return numbers; }
@@ -92,61 +71,26 @@ void SceneLoads::add(Row row, Load const& load) {
     }
 }
 
-std::vector<int> know_load_keys(std::span<std::string const> names, std::span<LoadNumber const* const> of) {
-    KnownKeys& all = known();
-    std::lock_guard const lock(all.access);
-    std::vector<int> uses(most_load_numbers, 0);  // of places, by other names
-    for (Key const& key : all.keys) ++uses[static_cast<std::size_t>(place_of(key))];
-    std::vector<int> places;
-    auto const is_free = [&](int place) { return std::ranges::count(places, place) == 0; };
-    // Those that are known keep their places.
-    for (std::string const& name : names) {
-        Key const* const key = known_key(all, name);
-        places.push_back(key == nullptr ? Load::none : place_of(*key));
-        if (key != nullptr && std::count(places.begin(), places.end(), places.back()) > 1)
-            throw std::length_error("earlier scenes of this process had other loads, whose names take the places of these");
-    }
-    std::vector<std::size_t> added;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (places[i] != Load::none) continue;
-        int best = Load::none;
-        for (int place = 0; place < most_load_numbers; ++place) {
-            if (is_free(place) && (best == Load::none || uses[static_cast<std::size_t>(place)] < uses[static_cast<std::size_t>(best)])) best = place;
-        }
-        if (best == Load::none) throw std::length_error("all loads of a scene have sixteen numbers at most");
-        places[i] = best;
-        added.push_back(i);
-    }
-    for (std::size_t const i : added) {
-        std::string const& name = all.names.emplace_back(names[i]);
-        // A scale that nobody gives is 1, everything else 0.
-        all.keys.push_back({name, load_inputs[places[i]], of[i]->unit, Rule::any, KeyGroup::load, of[i]->meaning, of[i]->name == "scale" ? 1.0 : 0.0});
-    }
-    all.count.store(all.keys.size(), std::memory_order_release);
-    return places;
+int SceneLoads::add_key(std::string name, LoadNumber const& number) {
+    auto const place = static_cast<int>(keys_.size());
+    // A scale that nobody gives is 1, everything else 0.
+    keys_.push_back({names_.emplace_back(std::move(name)), load_inputs[place], number.unit, Rule::any, KeyGroup::load, number.meaning,
+                     number.name == "scale" ? 1.0 : 0.0});
+    return place;
 }
 
-std::vector<Key const*> known_load_keys() {
-    KnownKeys& all = known();
-    std::lock_guard const lock(all.access);
-    std::vector<Key const*> keys;
-    for (Key const& key : all.keys) keys.push_back(&key);
-    return keys;
+Key const* SceneLoads::find_key(std::string_view name) const {
+    auto const found = std::ranges::find(keys_, name, &Key::name);
+    return found == keys_.end() ? nullptr : &*found;
 }
 
-std::size_t known_load_key_count() { return known().count.load(std::memory_order_acquire); }
-
-bool is_of(Key const& key, LoadList const& loads) {
-    constexpr std::string_view table = "load.";
-    for (int i = 0; i < loads.count; ++i) {
-        std::string_view const name = loads.loads[i].name, own = key.name;
-        if (!own.starts_with(table) || own.substr(table.size()).substr(0, name.size()) != name || own.substr(table.size() + name.size(), 1) != ".") continue;
-        Load load = loads.loads[i];
-        for (LoadNumber const& number : numbers) {
-            if (own.substr(table.size() + name.size() + 1) == number.name && number.place(load) == place_of(key)) return true;
-        }
+std::string_view jumping_load(SceneLoads const* loads) {
+    for (std::size_t i = 0; loads != nullptr && i < loads->rows().size(); ++i) {
+        Load const& load = loads->load(i);
+        bool const once_a_turn = load.table.repeats && loads->rows()[i].table.span < 3 * std::numbers::pi;
+        if (load.over == LoadArgument::time || (load.over == LoadArgument::crank_angle && !once_a_turn)) return loads->rows()[i].name;
     }
-    return false;
+    return {};
 }
 
 }  // namespace slideway

@@ -1,7 +1,7 @@
 // [load.<name>]: what acts on a mechanism beside its weight, its contacts and its drive (docs/model.md 14).
 #pragma once
 
-#include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,6 +15,7 @@
 namespace slideway {
 
 struct Node;
+struct Reading;
 struct Setting;
 
 /// A number that a load may have: load.<name>.force_x …
@@ -32,10 +33,9 @@ std::span<Setting const> load_settings();
 inline constexpr std::string_view load_bodies[] = {"slider", "crank"}, load_frames[] = {"ground", "slider"};
 inline constexpr std::string_view load_arguments[] = {"crank_angle", "time", "x", "vx", "crank_speed"};  // in the order of LoadArgument, behind `nothing`
 
-/// The table of a load, as it was read.
+/// What a load has of its table (find_table of load.<name>.table).
 struct LoadTable {
-    std::string path, column;
-    std::uint64_t checksum = 0;  // FNV-1a of the file
+    std::string column;
     std::size_t rows = 0;
     double narrowest = 0, span = 0;  // the least distance of two rows, and that of the first and the last
     Interpolation interpolation = Interpolation::spline;
@@ -51,7 +51,7 @@ struct TableKind {
     bool advances = false;  // where it repeats, it need not close
 };
 /// Of a file beside a scene.  @param file, column nodes that name them  @throws SceneError
-LoadTable read_table_of(Node const& file, Node const& column, std::string const& scene, TableKind const& kind);
+LoadTable read_table_of(Reading& reading, Node const& file, Node const& column, TableKind const& kind);
 
 /// All loads of a scene.
 class SceneLoads {
@@ -64,7 +64,12 @@ public:
 
     /// Of a row the load that kernels see, its places among Inputs::load_a … filled in.
     void add(Row row, Load const& load);
+    /// Makes the key of a number that the scene gives a load.  @param name dotted  @return its place among Inputs::load_a …; there are
+    /// most_load_numbers of them
+    int add_key(std::string name, LoadNumber const& number);
     std::span<Row const> rows() const { return rows_; }
+    std::deque<Key> const& keys() const { return keys_; }
+    Key const* find_key(std::string_view name) const;
     Load const& load(std::size_t row) const { return loads_[row]; }
     /// For as long as this lives and nothing is added.
     LoadList list() const { return {loads_.data(), static_cast<int>(loads_.size())}; }
@@ -72,17 +77,11 @@ public:
 private:
     std::vector<Row> rows_;
     std::vector<Load> loads_;
+    std::deque<std::string> names_;
+    std::deque<Key> keys_;
 };
 
-// Keys of loads are known from the first scene on that has them: numeric_keys() has them, and a scene those of its own loads (counts_for).
-
-/// Makes the keys of a scene's loads known.  @param names dotted, those of one scene  @return for each its place among Inputs::load_a …
-/// @throws std::length_error where there are too many of them
-std::vector<int> know_load_keys(std::span<std::string const> names, std::span<LoadNumber const* const> numbers);
-/// All that are known.
-std::vector<Key const*> known_load_keys();
-std::size_t known_load_key_count();
-/// Whether a key is of one of these loads.
-bool is_of(Key const& key, LoadList const& loads);
+/// The first load whose table is over time, or over more than one turn of the crank: where a member begins, it begins anew.  "" where there is none.
+std::string_view jumping_load(SceneLoads const* loads);
 
 }  // namespace slideway

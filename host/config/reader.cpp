@@ -65,7 +65,7 @@ void check_inputs(Reading const& reading) {
     if (!found) return;
     Node const* node = nullptr;
     for (Key const* const key : {found->other, found->key}) {
-        for (GivenKey const& entry : given_keys(reading.root)) {
+        for (GivenKey const& entry : given_keys(reading)) {
             if (key != nullptr && entry.key->overlaps(*key)) node = entry.node;  // the last one took effect
         }
     }
@@ -129,15 +129,15 @@ void refuse_unknown(Node const& node, std::string_view what, std::span<std::stri
 
 Scene read_scene(std::string const& path, Overrides const& overrides) { return parse_scene(read_scene_text(path), path, overrides); }
 
-Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides) {
-    return parse_scene(text, name, overrides, settings(), key_rules());
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides, Scene const* former) {
+    return parse_scene(text, name, overrides, settings(), key_rules(), former);
 }
 
-Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides, Settings rows, KeyRules rules) {
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides, Settings rows, KeyRules rules, Scene const* former) {
     Node const root = read_document(text, name, overrides);
     Scene scene;
     scene.path = name;
-    Reading reading{root, scene, rows, rules};
+    Reading reading{root, scene, rows, rules, former};
     read_modules(reading);
     // The program's own rows are known with all numbers; of others they are put together.
     bool const own = rows.data() == settings().data();

@@ -24,6 +24,7 @@ struct Reading {
     Scene& scene;
     Settings keys = known_keys();
     KeyRules rules = key_rules();
+    Scene const* former = nullptr;  // whose tables count (parse_scene)
 
     Node const* given(std::string_view name) const { return root.find_path(name); }
     /// The first of them that is given.
@@ -39,16 +40,11 @@ struct GivenKey {
     Node const* node;
 };
 /// In the order in which they take effect: those of the file, then the options.
-std::vector<GivenKey> given_keys(Node const& root);
+std::vector<GivenKey> given_keys(Reading const& reading);
 
-/// A file that a scene names.
-struct InputFile {
-    std::string path;   // from the root
-    std::string name;   // for messages
-    std::string bytes;
-};
-/// From the scene's folder on, at most 256 MiB.
-InputFile read_file_beside(Node const& node, std::string const& scene);
+/// The file of a table that a node names, from the scene's folder on, at most 256 MiB: from then on among Scene::tables.  One that is given from the
+/// root on and is not there, as in the resolved scene of a study that was moved, may lie beside the scene.
+TableFile read_table_file(Reading& reading, Node const& node);
 /// A field of its row for messages: `members.csv:3: name is "text" (…); …`.
 Node field_node(CsvReader const& table, std::string name, std::string text);
 
@@ -112,8 +108,10 @@ bool varies(Scene const& scene, std::string_view name);
 bool is_of_start(Key const& key);
 /// Whether steps end at contacts whatever the scene says.
 bool always_locates(Scene const& scene);
-/// What to write instead of a name that is no numeric key of the physics.
-std::string key_advice(std::string_view name);
+/// What to write instead of a name that is no numeric key of the scene.
+std::string key_advice(std::string_view name, Scene const& scene);
+/// Refuses a name of a load's number that the scene does not give: it has no place among those of a member.
+void refuse_ungiven(std::string_view where, std::string_view name, Scene const& scene);
 
 /// Periods of the drive that members may have [s]; the most is infinite where a limit lets it stand still.
 struct PeriodRange {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -90,14 +89,12 @@ void check_turns(TwoColumns& columns, std::string const& name, TableKind const& 
 
 }  // namespace
 
-LoadTable read_table_of(Node const& file, Node const& column, std::string const& scene, TableKind const& kind) {
+LoadTable read_table_of(Reading& reading, Node const& file, Node const& column, TableKind const& kind) {
     LoadTable table;
-    InputFile input = read_file_beside(file, scene);
-    table.path = input.path;
-    table.checksum = fnv1a(input.bytes);
+    TableFile const input = read_table_file(reading, file);
     table.column = read_text_value(column);
     table.interpolation = kind.interpolation;
-    std::istringstream in(std::move(input.bytes));
+    std::istringstream in(*input.text);
     CsvReader rows(in, input.name);
     if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
     TwoColumns columns(rows, column, kind.argument, kind.argument_unit, kind.value_units, table.column);
@@ -127,19 +124,20 @@ namespace {
 
 class LoadReader {
 public:
-    LoadReader(Node const& node, Scene const& scene) : node_(node), scene_(scene) {
+    LoadReader(Node const& node, Reading& reading) : node_(node), reading_(reading), scene_(reading.scene) {
         row_.name = node.key;
         if (!node.is_table()) refuse(node, {"a load is a table", fmt::format("write [{}] and its keys below", node.name)});
         if (!is_module_name(node.key))
             refuse_that(node, "is no name of a load", {"names have at most 60 small letters, digits and '_', a letter first", "rename it"});
         on_crank_ = choice("on", load_bodies) == 1;
         load_.turns_with_slider = choice("frame", load_frames) == 1;
-        bool const turns = info(scene.parts.mechanism).drive == DriveKind::crank;
-        if (on_crank_ && !turns) refuse(*node.find("on"), {fmt::format("a {} has no crank", info(scene.parts.mechanism).name), "use on = \"slider\""});
+        bool const turns = info(scene_.parts.mechanism).drive == DriveKind::crank;
+        if (on_crank_ && !turns) refuse(*node.find("on"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use on = \"slider\""});
         if (on_crank_ && node.find("frame") != nullptr) refuse(*node.find("frame"), {"the torque on a crank is about its axis", "remove it"});
         for (Node const& child : node.children) check(child);
         if (std::ranges::all_of(numbers_, [](LoadNumber const* number) { return number->name == "scale" || number->name.starts_with("point"); }))
             refuse_missing(node, node.name + (on_crank_ ? ".torque" : ".force_x"), "a load without a force or a torque does nothing", "give one");
+        warn_of_idle_points();
         read_table();
     }
 
@@ -167,6 +165,14 @@ private:
         numbers_.push_back(&*number);
     }
 
+    void warn_of_idle_points() {
+        if (std::ranges::any_of(numbers_, [](LoadNumber const* number) { return number->name.starts_with("force"); })) return;
+        for (LoadNumber const* const number : numbers_) {
+            if (number->name.starts_with("point"))
+                reading_.warn(fmt::format("{}: {}.{} has no effect, for the load has no force", node_.find(number->name)->where, node_.name, number->name));
+        }
+    }
+
     void read_table() {
         Node const* const file = node_.find("table");
         if (file == nullptr) {
@@ -192,11 +198,30 @@ private:
     }
 
     void read_file(Node const& file, std::size_t over, bool repeats) {
-        Interpolation const interpolation = row_.table.interpolation;
-        row_.table = read_table_of(file, *node_.find("column"), scene_.path, {load_arguments[over], argument_units[over], value_units, repeats, interpolation});
+        TableKind const kind{load_arguments[over], argument_units[over], value_units, repeats, row_.table.interpolation};
+        LoadTable const* const same = former_table(file, kind);
+        if (same == nullptr) {
+            row_.table = read_table_of(reading_, file, *node_.find("column"), kind);
+            return;
+        }
+        row_.table = *same;
+        read_table_file(reading_, file);  // it is among the tables of this scene, too
+    }
+
+    /// What a former reading of the scene made of the same rows.
+    LoadTable const* former_table(Node const& file, TableKind const& kind) const {
+        Scene const* const former = reading_.former;
+        for (std::size_t i = 0; former != nullptr && former->loads != nullptr && i < former->loads->rows().size(); ++i) {
+            auto const& [name, table] = former->loads->rows()[i];
+            TableFile const* const of = find_table(*former, fmt::format("load.{}.table", name));
+            if (of == nullptr || of->key != file.name || of->given != read_text_value(file) || former->loads->load(i).over != load_.over || table.column != read_text_value(*node_.find("column"))) continue;
+            if (table.interpolation == kind.interpolation && former->loads->load(i).table.repeats == kind.repeats) return &table;
+        }
+        return nullptr;
     }
 
     Node const& node_;
+    Reading& reading_;
     Scene const& scene_;
     SceneLoads::Row row_;
     Load load_;
@@ -205,6 +230,20 @@ private:
 };
 
 }  // namespace
+
+void refuse_ungiven(std::string_view where, std::string_view name, Scene const& scene) {
+    constexpr std::string_view table = "load.";
+    auto const dot = name.rfind('.');
+    if (!name.starts_with(table) || dot < table.size()) return;
+    std::string_view const load = name.substr(0, dot), own = name.substr(dot + 1);
+    auto const number = std::ranges::find(load_numbers(), own, &LoadNumber::name);
+    if (number == load_numbers().end()) return;
+    auto const is_load = [&](SceneLoads::Row const& row) { return row.name == load.substr(table.size()); };
+    std::string const advice = fmt::format("add {} = {}", own, own == "scale" ? 1 : 0);
+    if (scene.loads == nullptr || std::ranges::none_of(scene.loads->rows(), is_load))
+        throw SceneError(fmt::format("{}: {} is of no load of the scene (there is no [{}]); add that, or use the name of another", where, name, load));
+    throw SceneError(fmt::format("{}: {} is not given in [{}] (a number must be given to vary); {}", where, name, load, advice));
+}
 
 void read_loads(Reading& reading) {
     Scene& scene = reading.scene;
@@ -215,27 +254,15 @@ void read_loads(Reading& reading) {
         throw SceneError(fmt::format("{}: loads act on the mechanisms of slideway, and {} is of a module; put them into its own equations", table->where,
                                      info(scene.parts.mechanism).name));
     }
-    std::vector<LoadReader> readers;
-    std::vector<std::string> names;
-    std::vector<LoadNumber const*> numbers;
-    for (Node const& node : table->children) {
-        readers.emplace_back(node, scene);
-        for (LoadNumber const* const number : readers.back().numbers()) {
-            names.push_back(fmt::format("{}.{}", node.name, number->name));
-            numbers.push_back(number);
-        }
-    }
-    if (readers.empty()) return;
-    std::vector<int> places;
-    try {
-        places = know_load_keys(names, numbers);
-    } catch (std::length_error const& error) {
-        throw SceneError(fmt::format("{}: {} numbers of loads are given ({}); use fewer", table->where, names.size(), error.what()));
-    }
+    if (table->children.empty()) return;
     auto loads = std::make_shared<SceneLoads>();
-    auto place = places.begin();
-    for (LoadReader& reader : readers) {
-        for (LoadNumber const* const number : reader.numbers()) number->place(reader.load()) = *place++;
+    for (Node const& node : table->children) {
+        LoadReader reader(node, reading);
+        for (LoadNumber const* const number : reader.numbers()) {
+            if (loads->keys().size() == most_load_numbers)
+                refuse(*node.find(number->name), {"all loads of a scene have sixteen numbers at most", "use fewer"});
+            number->place(reader.load()) = loads->add_key(fmt::format("{}.{}", node.name, number->name), *number);
+        }
         loads->add(reader.take_row(), reader.load());
     }
     scene.parts.loads = loads->list();

@@ -63,7 +63,7 @@ void read_mechanism(Reading& reading) {
     Parts& parts = reading.scene.parts;
     if (Node const* const kind = reading.given("mechanism.kind")) read_text_value(*kind);
     Node const* const law = reading.given("contact.law");
-    for (auto const& [key, node] : given_keys(reading.root)) {
+    for (auto const& [key, node] : given_keys(reading)) {
         if (!counts_for(*key, parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
     }
     apply_rules(reading, Known::mechanism);
@@ -76,7 +76,7 @@ void read_mechanism(Reading& reading) {
 void read_numbers(Reading& reading) {
     Scene& scene = reading.scene;
     Node const* const law = reading.given("contact.law");
-    auto const given = given_keys(reading.root);
+    auto const given = given_keys(reading);
     for (auto const& [key, node] : given) {
         if (counts_for(*key, scene.parts)) {
             key->set(scene.inputs, read_number(*node, *key));
@@ -92,15 +92,15 @@ void read_numbers(Reading& reading) {
 
 }  // namespace
 
-std::vector<GivenKey> given_keys(Node const& root) {
+std::vector<GivenKey> given_keys(Reading const& reading) {
     std::vector<GivenKey> given;
     auto const add = [&](Node const& table, auto const& add_below) -> void {
         for (Node const& node : table.children) {
-            if (Key const* const key = find_key(node.name)) given.push_back({key, &node});
+            if (Key const* const key = find_key(node.name, reading.scene)) given.push_back({key, &node});
             else if (table.key == "load") add_below(node, add_below);
         }
     };
-    for (Node const& table : root.children) add(table, add);
+    for (Node const& table : reading.root.children) add(table, add);
     std::ranges::stable_sort(given, {}, [](GivenKey const& one) { return one.node->order; });
     return given;
 }
@@ -152,7 +152,7 @@ void warn_of_idle_sources(Reading& reading) {
         if (!is_idle_source(key, reading.scene.parts, given_or_varied(reading.scene))) return;
         reading.warn(fmt::format("{} has no effect, for all masses and inertias that would follow from it are given", key.name));
     };
-    for (auto const& [key, node] : given_keys(reading.root)) warn(*key);
+    for (auto const& [key, node] : given_keys(reading)) warn(*key);
     for (Variation const& variation : reading.scene.variations) warn(*variation.key);
     if (reading.scene.chaos.parameter != nullptr) warn(*reading.scene.chaos.parameter);
 }

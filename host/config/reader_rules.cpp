@@ -1,10 +1,13 @@
 // The walk over the rules between keys.
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
@@ -23,23 +26,49 @@ std::string listed(MethodSet methods) {
     return fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-/// A text of a rule with the scene's words in the place of their names.
-std::string filled(std::string_view text, Scene const& scene) {
-    Parts const& parts = scene.parts;
+std::string rigid_mechanisms() {
     std::vector<std::string_view> rigid;
     for (std::size_t i = 0; i < mechanisms().size(); ++i) {
         if (may_be_rigid(static_cast<Mechanism>(i))) rigid.push_back(mechanism_names()[i]);
     }
-    LawInfo const& law = contact_info(parts);
-    std::string const leaping = fmt::format(
-        ": steps leap over mode switches of contact.law \"{}\" and miss how they separate neighbours, so that exponents come out wrong", law.name);
-    MethodSet const methods = methods_of(parts), pairs = methods & method_sets::explicit_pairs;
-    return fmt::format(fmt::runtime(text), fmt::arg("mechanism", info(parts.mechanism).name), fmt::arg("law", law.name), fmt::arg("words", law.words),
-                       fmt::arg("study", name_of(scene.study)), fmt::arg("design", name_of(scene.design.kind)),
-                       fmt::arg("method", name_of(scene.integrator.method)), fmt::arg("methods", listed(methods)), fmt::arg("pairs", listed(pairs)), fmt::arg("any_pair", listed(method_sets::explicit_pairs)),
-                       fmt::arg("parameter", scene.chaos.parameter != nullptr ? scene.chaos.parameter->name : std::string_view()),
-                       fmt::arg("rigid_mechanisms", fmt::format("{}", fmt::join(rigid, " or "))), fmt::arg("rest", why_no_period(parts)),
-                       fmt::arg("leaping", leaping));
+    return fmt::format("{}", fmt::join(rigid, " or "));
+}
+
+/// What texts of rules may say of a scene in braces.
+constexpr struct {
+    std::string_view name;
+    std::string (*text)(Scene const& scene);
+} words[] = {
+    {"mechanism", [](Scene const& s) { return std::string(info(s.parts.mechanism).name); }},
+    {"rigid_mechanisms", [](Scene const&) { return rigid_mechanisms(); }},
+    {"law", [](Scene const& s) { return std::string(contact_info(s.parts).name); }},
+    {"words", [](Scene const& s) { return std::string(contact_info(s.parts).words); }},
+    {"study", [](Scene const& s) { return std::string(name_of(s.study)); }},
+    {"design", [](Scene const& s) { return std::string(name_of(s.design.kind)); }},
+    {"parameter", [](Scene const& s) { return std::string(s.chaos.parameter->name); }},
+    {"jumping_load", [](Scene const& s) { return std::string(jumping_load(s.loads.get())); }},
+    {"rest", [](Scene const& s) { return why_no_period(s.parts); }},
+    {"method", [](Scene const& s) { return std::string(name_of(s.integrator.method)); }},
+    {"methods", [](Scene const& s) { return listed(methods_of(s.parts)); }},
+    {"pairs", [](Scene const& s) { return listed(methods_of(s.parts) & method_sets::explicit_pairs); }},
+    {"any_pair", [](Scene const&) { return listed(method_sets::explicit_pairs); }},
+    {"leaping", [](Scene const& s) {
+         return fmt::format(": steps leap over mode switches of contact.law \"{}\" and miss how they separate neighbours, so that exponents come out wrong",
+                            contact_info(s.parts).name);
+     }},
+};
+
+/// A text of a rule with the scene's words in the place of their names.
+std::string filled(std::string_view text, Scene const& scene) {
+    std::string filled;
+    for (auto open = text.find('{'); open != text.npos; open = text.find('{')) {
+        auto const close = text.find('}', open);
+        auto const word = std::ranges::find(words, text.substr(open + 1, close - open - 1), [](auto const& one) { return one.name; });
+        if (word == std::end(words)) throw std::logic_error(fmt::format("rules have no word for {}", text.substr(open)));
+        filled.append(text.substr(0, open)).append(word->text(scene));
+        text.remove_prefix(close + 1);
+    }
+    return filled.append(text);
 }
 
 }  // namespace

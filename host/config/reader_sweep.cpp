@@ -69,8 +69,9 @@ void read_sweep(Reading& reading) {
     Scene& scene = reading.scene;
     Node const& parameter = *reading.given("study.parameter");
     std::string const& name = read_text_value(parameter);
-    Key const* const key = find_key(name);
-    if (key == nullptr) refuse(parameter, {"only numeric keys of the physics can be swept", key_advice(name)});
+    Key const* const key = find_key(name, scene);
+    if (key == nullptr) refuse_ungiven(parameter.where, name, scene);
+    if (key == nullptr) refuse(parameter, {"only numeric keys of the physics can be swept", key_advice(name, scene)});
     check_varied(reading, parameter, *key, {"the sweep sets it in every column, so this has no effect", "use --set 'study.values=[...]'"});
     Node const* const list = reading.given("study.values");
     scene.chaos.parameter = key;

@@ -28,23 +28,26 @@ struct Column {
     bool has_missing = false;            // in words, such as NA
 };
 
-[[noreturn]] void refuse_column(Node const& header) {
-    refuse(header, {"only numeric keys of the physics can be columns", key_advice(column_header(header.text).name)});
+[[noreturn]] void refuse_column(Node const& header, Scene const& scene) {
+    std::string const name = column_header(header.text).name;
+    refuse_ungiven(header.where, name, scene);
+    refuse(header, {"only numeric keys of the physics can be columns", key_advice(name, scene)});
 }
 
 /// Whether a header may be that of texts: it has no unit, is like no key, and does not begin with a table of keys.
-bool may_name_texts(std::string_view header) {
-    if (header.empty() || header.find('[') != header.npos || !nearest_name(header, numeric_key_names()).empty()) return false;
+bool may_name_texts(std::string_view header, Scene const& scene) {
+    auto const names = numeric_key_names(scene);
+    if (header.empty() || header.find('[') != header.npos || !nearest_name(header, names).empty()) return false;
     std::string_view const table = header.substr(0, header.find('.'));
-    return table == header || std::ranges::none_of(numeric_keys(), [&](Key const& key) { return key.name.starts_with(table) && key.name[table.size()] == '.'; });
+    return table == header || std::ranges::none_of(names, [&](std::string_view name) { return name.starts_with(table) && name[table.size()] == '.'; });
 }
 
 /// "joint.clearance [mm]": the key, and how its numbers become SI ones; or "part", above texts.
-Column read_column(Node const& node) {
+Column read_column(Node const& node, Scene const& scene) {
     ColumnHeader const header = column_header(node.text);
-    Column column{find_key(header.name), UnitFactor(1), {}, node};
+    Column column{find_key(header.name, scene), UnitFactor(1), {}, node};
     if (column.key == nullptr) {
-        if (!may_name_texts(node.text)) refuse_column(node);
+        if (!may_name_texts(node.text, scene)) refuse_column(node, scene);
         return column;
     }
     column.unit = header.unit.value_or(std::string(column.key->unit));
@@ -73,7 +76,7 @@ public:
     /// Reads the header, and adds a variation for each of its keys.
     MemberRows(CsvReader& rows, Reading& reading, MemberTable& table) : rows_(rows), scene_(reading.scene), table_(table) {
         for (std::string const& field : rows.fields()) {
-            columns_.push_back(read_column(field_node(rows, fmt::format("column {}", columns_.size() + 1), field)));
+            columns_.push_back(read_column(field_node(rows, fmt::format("column {}", columns_.size() + 1), field), scene_));
             Column const& column = columns_.back();
             if (column.key == nullptr) {
                 table.labelled += fmt::format("{}{}", table.labelled.empty() ? "" : ", ", column.header.text);
@@ -105,7 +108,7 @@ public:
         for (Column const& column : columns_) {
             if (column.key != nullptr) continue;
             // Of numbers, or of missing ones, it is a key that was mistyped.
-            if (column.text_line == 0 && (column.number_line != 0 || column.has_missing)) refuse_column(column.header);
+            if (column.text_line == 0 && (column.number_line != 0 || column.has_missing)) refuse_column(column.header, scene_);
             if (column.number_line == 0) continue;
             refuse(column.header, {fmt::format("no key of the physics, and below it stand a number, in line {}, and a text, in line {}",
                                                column.number_line, column.text_line),
@@ -200,28 +203,45 @@ Node field_node(CsvReader const& table, std::string name, std::string text) {
     return node;
 }
 
-InputFile read_file_beside(Node const& node, std::string const& scene) {
+TableFile read_table_file(Reading& reading, Node const& node) {
+    namespace fs = std::filesystem;
     constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
+    Scene& scene = reading.scene;
     std::string const& given = read_text_value(node);
     if (given.empty()) refuse(node, {"no file has this name", "write for example \"members.csv\""});
-    auto const path = (std::filesystem::path(scene).parent_path() / given).lexically_normal();
+    for (Scene const* const from : {static_cast<Scene const*>(&scene), reading.former}) {
+        if (from == nullptr) continue;
+        auto const known = std::ranges::find(from->tables, given, &TableFile::given);
+        if (known == from->tables.end()) continue;
+        TableFile same = *known;
+        same.key = node.name;
+        return scene.tables.emplace_back(std::move(same));
+    }
+    fs::path const folder = fs::path(scene.path).parent_path();
+    fs::path path = (folder / given).lexically_normal();
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
+    if (fs::path(given).is_absolute() && !fs::exists(path, ignored) && fs::exists(folder / path.filename(), ignored)) {
+        path = (folder / path.filename()).lexically_normal();
+        reading.warn(fmt::format("{}: {} is not there any more; {} is read in its place", node.where, node.name, shown_briefly(path.string())));
+    }
+    if (fs::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
     InputText input = read_input(path.string(), largest);
     if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
     if (input.error != 0)
         refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path.string()), input.why()), "check the path, from the scene's folder on"});
-    return {std::filesystem::absolute(path).lexically_normal().string(), shown_briefly(path.string()), std::move(input.text)};
+    std::uint64_t const checksum = fnv1a(input.text);
+    return scene.tables.emplace_back(TableFile{node.name, given, fs::absolute(path).lexically_normal().string(), shown_briefly(path.string()),
+                                               std::make_shared<std::string const>(std::move(input.text)), checksum});
 }
 
 void read_member_table(Reading& reading, Node const& node) {
     Scene& scene = reading.scene;
-    InputFile file = read_file_beside(node, scene.path);
+    TableFile const file = read_table_file(reading, node);
     auto table = std::make_shared<MemberTable>();
-    table->path = std::move(file.path);
-    table->name = std::move(file.name);
-    table->checksum = fnv1a(file.bytes);
-    std::istringstream in(std::move(file.bytes));
+    table->path = file.path;
+    table->name = file.name;
+    table->checksum = file.checksum;
+    std::istringstream in(*file.text);
     CsvReader rows(in, table->name);
     if (!rows.next())
         rows.fail("the table is empty (it needs a header and a row); write keys like joint.clearance above");
@@ -251,8 +271,9 @@ void take_members(Scene& scene, std::vector<std::string> const& names, std::span
     table->values.assign(values.begin(), values.end());
     table->checksum = fnv1a(std::as_bytes(values));
     for (std::string const& name : names) {
-        Key const* const key = find_key(name);
-        if (key == nullptr) fail(fmt::format("{}: only numeric keys of the physics can be inputs of members; {}", name, key_advice(name)));
+        Key const* const key = find_key(name, scene);
+        if (key == nullptr) refuse_ungiven(scene.path, name, scene);
+        if (key == nullptr) fail(fmt::format("{}: only numeric keys of the physics can be inputs of members; {}", name, key_advice(name, scene)));
         if (!counts_for(*key, scene.parts)) fail(fmt::format("{} has no meaning for this mechanism and contact law; leave it out", name));
         std::erase_if(scene.variations, [&](Variation const& other) { return other.column == Variation::no_column && other.key->overlaps(*key); });
         for (Variation const& other : scene.variations) {

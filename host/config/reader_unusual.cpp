@@ -48,7 +48,7 @@ bool check_pair(Reading& reading, Told& told, std::string where, Inputs const& i
     if (std::ranges::any_of(told, [&](Key const* other) { return other->overlaps(key); })) return true;
     if (where.empty()) {
         where = reading.root.where;
-        for (GivenKey const& given : given_keys(reading.root)) {
+        for (GivenKey const& given : given_keys(reading)) {
             if (given.key->overlaps(key)) where = given.node->where;
         }
     }
@@ -58,7 +58,7 @@ bool check_pair(Reading& reading, Told& told, std::string where, Inputs const& i
 
 void check_given(Reading& reading, Told& told) {
     Scene const& scene = reading.scene;
-    auto const given = given_keys(reading.root);
+    auto const given = given_keys(reading);
     for (auto one = given.begin(); one != given.end(); ++one) {
         auto const replaced = [&](GivenKey const& later) { return later.key->overlaps(*one->key); };
         auto const varied = [&](Variation const& variation) { return variation.key->overlaps(*one->key); };

@@ -92,8 +92,8 @@ void collect_variations(Node const& table, std::vector<Node const*>& found) {
 
 }  // namespace
 
-std::string key_advice(std::string_view name) {
-    std::string_view const near = nearest_name(name, numeric_key_names());
+std::string key_advice(std::string_view name, Scene const& scene) {
+    std::string_view const near = nearest_name(name, numeric_key_names(scene));
     return near.empty() ? std::string("use a dotted key like \"joint.clearance\"") : fmt::format("did you mean \"{}\"?", near);
 }
 
@@ -112,7 +112,7 @@ void check_varied(Reading const& reading, Node const& node, Key const& key, Prob
         refuse(node, {drawn ? fmt::format("study.vary.{} varies the same", other.key->name) : fmt::format("the column {} has the same", other.key->name),
                       "remove one of the two"});
     }
-    for (GivenKey const& given : given_keys(reading.root)) {
+    for (GivenKey const& given : given_keys(reading)) {
         if (given.node->order > 0 && given.key->overlaps(key)) refuse(*given.node, of_option);
     }
     if (!counts_for(key, scene.parts.mechanism)) refuse_meaningless(node.where, key.name, scene.parts.mechanism);
@@ -138,8 +138,9 @@ std::string_view varied_name(Node const& node) { return std::string_view(node.na
 
 void read_variations(Reading& reading) {
     for (Node const* const node : varied_nodes(reading.root)) {
-        Key const* const key = find_key(varied_name(*node));
-        if (key == nullptr) refuse_that(*node, "cannot vary", {"only numeric keys of the physics can", key_advice(varied_name(*node))});
+        Key const* const key = find_key(varied_name(*node), reading.scene);
+        if (key == nullptr) refuse_ungiven(node->where, varied_name(*node), reading.scene);
+        if (key == nullptr) refuse_that(*node, "cannot vary", {"only numeric keys of the physics can", key_advice(varied_name(*node), reading.scene)});
         Distribution distribution = read_distribution(*node, *key);
         check_varied(reading, *node, *key, {"[study.vary] draws it for every member, so this has no effect",
                                             fmt::format("use --set 'study.vary.\"{}\"={{dist=\"const\", value=...}}'", key->name)});

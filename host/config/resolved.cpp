@@ -89,7 +89,8 @@ std::string loads_text(Scene const& scene) {
             if (place != Load::none) text += number_line(number.name, scene.inputs.*load_inputs[place], number.unit);
         }
         if (table.function == nullptr) continue;
-        text += fmt::format("table = {}\n", file_text(table.path, table.rows, table.checksum));
+        TableFile const& file = *find_table(scene, fmt::format("load.{}.table", name));
+        text += fmt::format("table = {}\n", file_text(file.path, table.rows, file.checksum));
         text += fmt::format("over = \"{}\"\ncolumn = {}\n", load_arguments[static_cast<int>(load.over) - 1], toml_string(table.column));
         text += fmt::format("interpolation = \"{}\"\nrepeats = {}\n", interpolation_names[static_cast<int>(table.interpolation)], load.table.repeats);
     }
@@ -128,8 +129,8 @@ std::string mechanism(Scene const& scene, Setting const&) {
 }
 
 std::string drive_table(Scene const& scene, Setting const&) {
-    LoadTable const& table = scene.drive->table;
-    return file_text(table.path, table.rows, table.checksum);
+    TableFile const& file = *find_table(scene, "drive.table");
+    return file_text(file.path, scene.drive->table.rows, file.checksum);
 }
 std::string drive_column(Scene const& scene, Setting const&) { return toml_string(scene.drive->table.column); }
 std::string drive_argument(Scene const& scene, Setting const&) {

@@ -47,7 +47,7 @@ using KeyRules = std::span<KeyRule const>;
 KeyRules key_rules();
 
 /// The scene of a text, by other tables than its own (scene.hpp).
-Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides, Settings rows, KeyRules rules);
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides, Settings rows, KeyRules rules, Scene const* former = nullptr);
 
 /// Does what the rules of a stage say.  @throws SceneError
 void apply_rules(Reading& reading, Known known);

@@ -1,8 +1,10 @@
 #include "host/config/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "host/config/loads.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
@@ -35,6 +37,22 @@ double draw(Scene const& scene, Variation const& variation, std::uint64_t member
         if (scene.variations[i].key == variation.key) return values[i];
     }
     throw std::invalid_argument("draw: the scene does not vary this key");
+}
+
+Key const* find_key(std::string_view dotted_name, Scene const& scene) {
+    Key const* const own = scene.loads != nullptr ? scene.loads->find_key(dotted_name) : nullptr;
+    return own != nullptr ? own : find_key(dotted_name);
+}
+
+std::vector<std::string_view> numeric_key_names(Scene const& scene) {
+    std::vector<std::string_view> names = numeric_key_names();
+    for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->keys().size(); ++i) names.push_back(scene.loads->keys()[i].name);
+    return names;
+}
+
+TableFile const* find_table(Scene const& scene, std::string_view key) {
+    auto const found = std::ranges::find(scene.tables, key, &TableFile::key);
+    return found == scene.tables.end() ? nullptr : &*found;
 }
 
 std::uint64_t member_count(Scene const& scene) {

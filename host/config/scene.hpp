@@ -101,6 +101,16 @@ struct ChaosSettings {
     bool continued = false;      // a column starts from the last states of the one before
 };
 
+/// A table in a file that a scene names, as it was read.
+struct TableFile {
+    std::string key;    // study.table, load.<name>.table
+    std::string given;  // as the scene names it, from its folder on
+    std::string path;   // from the root
+    std::string name;   // for messages
+    std::shared_ptr<std::string const> text;
+    std::uint64_t checksum = 0;  // FNV-1a of the text
+};
+
 struct Scene {
     std::string path;  // as the user gave it
     std::string title;
@@ -109,6 +119,7 @@ struct Scene {
     Parts parts;
     std::shared_ptr<SceneLoads const> loads;  // those of the parts; none: nullptr
     std::shared_ptr<SceneDrive const> drive;  // the table of the parts' drive; none: nullptr
+    std::vector<TableFile> tables;            // all that it reads
     IntegratorSettings integrator;  // end_time and max_step resolved
     StudyKind study = StudyKind::ensemble;
     ChaosSettings chaos;  // of the studies that ask for it
@@ -136,7 +147,14 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set ke
 Scene read_scene(std::string const& path, Overrides const& overrides = {});
 
 /// The same from the text of a scene; `name` stands for the path in messages.
-Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides = {});
+/// @param former the scene of the same text with other overrides: tables that it has are taken from it, and no file is read again
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides = {}, Scene const* former = nullptr);
+
+/// A numeric key of the physics or of the scene's loads; nullptr when there is none.
+Key const* find_key(std::string_view dotted_name, Scene const& scene);
+std::vector<std::string_view> numeric_key_names(Scene const& scene);
+/// The table that a key of the scene names; nullptr when it names none.
+TableFile const* find_table(Scene const& scene, std::string_view key);
 
 /// Makes the members those of given inputs: design "table" without a file.  What the keys varied by before counts no more.
 /// @param names dotted keys  @param values in SI, one member a row  @throws SceneError if one of them is no such key, or the study's design is

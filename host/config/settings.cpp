@@ -198,12 +198,10 @@ Settings settings() {
 std::vector<Setting> with_physics(Settings rows) {
     std::vector<Setting> all(rows.begin(), rows.end());
     for (Key const& key : numeric_keys()) {
-        // Loads of any name have the rows of loads.hpp.
-        if (key.group == KeyGroup::load) continue;
         all.push_back({.name = key.name, .type = Type::number, .unit = key.unit, .meaning = key.meaning, .preset = "-", .range = range_of(key.rule),
                        .value = {.text = resolved::number}, .physics = &key});
     }
-    std::ranges::copy(load_settings(), std::back_inserter(all));
+    std::ranges::copy(load_settings(), std::back_inserter(all));  // of loads of any name
     static constexpr std::string_view tables[] = {"",        "modules",  "mechanism", "drive", "joint", "material",   "way",
                                                   "contact", "friction", "initial",   "load",  "integrator", "study"};
     std::ranges::stable_sort(all, {}, [](Setting const& row) { return std::ranges::find(tables, row.table()) - tables; });

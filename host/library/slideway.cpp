@@ -168,10 +168,11 @@ Ensemble Ensemble::parse(std::string const& text, std::string const& name, Setti
 }
 
 Ensemble Ensemble::with(Settings const& settings) const {
-    Settings all = state_->settings;
+    auto const& [text, name, before, scene, given] = *state_;
+    Settings all = before;
     all.insert(all.end(), settings.begin(), settings.end());
-    Ensemble const other = parse(state_->text, state_->name, all);
-    return state_->given.names.empty() ? other : other.with_members(state_->given);
+    Ensemble const other = told([&] { return Ensemble(std::make_shared<State>(State{text, name, all, parse_scene(text, name, all, &scene), {}})); });
+    return given.names.empty() ? other : other.with_members(given);
 }
 
 Ensemble Ensemble::with_members(Table const& inputs) const {

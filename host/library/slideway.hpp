@@ -114,7 +114,7 @@ public:
     static Ensemble read(std::string const& path, Settings const& settings = {});
     /// The text of a scene; `name` stands for the path in messages.
     static Ensemble parse(std::string const& text, std::string const& name = "scene", Settings const& settings = {});
-    /// The same scene with other values, and the same given members.
+    /// The same scene with other values, the same given members and the same tables: their files are not read again.
     Ensemble with(Settings const& settings) const;
 
     /// The same scene with members of these inputs, one a row; the columns are dotted keys, which then have no distribution.

@@ -1,9 +1,10 @@
 #include "host/store/run_identity.hpp"
 
 #include <algorithm>
-#include <map>
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 #include "host/base/error.hpp"
 #include "host/config/document.hpp"
 #include "host/config/scene_text.hpp"
-#include "host/store/shard_folder.hpp"
 
 namespace slideway {
 namespace {
@@ -23,7 +23,6 @@ constexpr std::string_view title_line =
 constexpr std::string_view checksum_mark = "# checksum: ", program_mark = "# program: ", arithmetic_mark = "# arithmetic: ",
                            members_mark = "# members: ", table_mark = "# table: ";
 constexpr std::string_view fused = "fused", contracted = "contracted";
-constexpr char const* table_key = "study.table";
 
 /// Where a text has a value.
 struct Place {
@@ -72,13 +71,28 @@ std::string source_behind(std::string const& scene, Place const& place) {
     return line.starts_with("  # source ") ? line : std::string();
 }
 
-/// What is compared: of study.table not where it lies.
+/// "3 rows, FNV-1a 0123456789abcdef" behind the path of a table; "" behind other values.
+std::string content_behind(std::string const& scene, std::string_view key, Place const& place) {
+    constexpr std::string_view comment = "  # ", mark = " rows, FNV-1a ";
+    if (!key.ends_with(".table") || scene.compare(place.end, comment.size(), comment) != 0) return {};
+    auto const begin = place.end + comment.size();
+    std::string content = scene.substr(begin, scene.find('\n', begin) - begin);
+    return content.find(mark) == content.npos ? std::string() : content;
+}
+
+/// "rows.csv" of a quoted path.
+std::string_view file_of(std::string_view quoted) {
+    quoted = quoted.substr(0, quoted.rfind('"'));
+    return quoted.substr(std::min(quoted.find_last_of("/\"") + 1, quoted.size()));
+}
+
+/// What is compared: of tables not where they lie.
 std::map<std::string, std::string> values_of(std::string const& scene) {
     std::map<std::string, std::string> values;
     for (auto const& [key, place] : places_in(scene)) {
         std::string& value = values[key] = place.in(scene);
         std::erase(value, '\n');
-        if (key == table_key) value = content_of_table(scene);
+        if (std::string content = content_behind(scene, key, place); !content.empty()) value = std::move(content);
         if (key == "contact.law" || key == "mechanism.kind") value += source_behind(scene, place);
     }
     return values;
@@ -104,15 +118,18 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         auto const shown = [](std::string_view value) {
             return std::string(value.substr(0, longest)) + (value.size() <= longest ? "" : "...");
         };
-        // What changed first: a law may bring many keys of its own.
-        std::vector<std::string> found, brought;
+        // What changed first, and tables before all, of which a longest step may follow: a law may bring many keys of its own.
+        std::vector<std::string> changed, found, brought;
         for (auto const& [key, value] : now) {
             auto const old = before.find(key);
             if (old == before.end())
                 brought.push_back(fmt::format("{} = {} is new", key, shown(value)));
+            else if (auto const table = tables.find(key); old->second != value && table != tables.end())
+                changed.push_back(fmt::format("{}: {} has changed since the run began, from {} to {}", key, file_of(table->second), old->second, value));
             else if (old->second != value)
                 found.push_back(fmt::format("{} was {}, is {}", key, shown(old->second), shown(value)));
         }
+        found.insert(found.begin(), changed.begin(), changed.end());
         found.insert(found.end(), brought.begin(), brought.end());
         for (auto const& [key, value] : before) {
             if (!now.contains(key)) found.push_back(fmt::format("{} = {} is gone", key, shown(value)));
@@ -128,26 +145,39 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
     return "";
 }
 
-std::string table_of(std::string const& scene) {
-    auto const table = find(scene, table_key);
-    return table ? std::string(table->in(scene)) : std::string();
+OfTables paths_of_tables(std::string const& scene) {
+    OfTables paths;
+    for (auto const& [key, place] : places_in(scene)) {
+        if (!content_behind(scene, key, place).empty()) paths[key] = place.in(scene);
+    }
+    return paths;
 }
 
-std::string content_of_table(std::string const& scene) {
-    constexpr std::string_view comment = "  # ";
-    auto const table = find(scene, table_key);
-    if (!table || scene.compare(table->end, comment.size(), comment) != 0) return {};
-    auto const begin = table->end + comment.size();
-    return scene.substr(begin, scene.find('\n', begin) - begin);
+OfTables contents_of_tables(std::string const& scene) {
+    OfTables contents;
+    for (auto const& [key, place] : places_in(scene)) {
+        if (std::string content = content_behind(scene, key, place); !content.empty()) contents[key] = std::move(content);
+    }
+    return contents;
 }
 
-std::string with_table(std::string const& scene, std::string_view quoted) {
-    auto const table = find(scene, table_key);
-    return table ? fmt::format("{}{}{}", scene.substr(0, table->begin), quoted, scene.substr(table->end)) : scene;
+std::string with_tables(std::string const& scene, OfTables const& quoted) {
+    std::map<std::size_t, std::pair<std::size_t, std::string_view>, std::greater<>> changes;  // from the end on, so that places before stay
+    for (auto const& [key, place] : places_in(scene)) {
+        auto const path = quoted.find(key);
+        if (path != quoted.end() && !content_behind(scene, key, place).empty()) changes[place.begin] = {place.end, path->second};
+    }
+    std::string text = scene;
+    for (auto const& [begin, change] : changes) text.replace(begin, change.first - begin, change.second);
+    return text;
 }
+
+std::string copy_of_table(std::string_view key) { return fmt::format("{}.csv", key); }
 
 std::string portable_scene(std::string const& scene) {
-    std::string text = with_table(scene, fmt::format("\"{}\"", shard_names::table));
+    OfTables copies = paths_of_tables(scene);
+    for (auto& [key, path] : copies) path = toml_string(copy_of_table(key));
+    std::string text = with_tables(scene, copies);
     if (auto const checked = find(text, "study.verify")) {
         auto const line = text.rfind('\n', checked->begin) + 1;
         text.erase(line, std::min(text.find('\n', line), text.size() - 1) + 1 - line);
@@ -156,10 +186,10 @@ std::string portable_scene(std::string const& scene) {
 }
 
 std::string identity_text(RunIdentity const& identity) {
-    std::string const table =
-        identity.table.empty() ? std::string() : fmt::format("{}{}\n", table_mark, identity.table);
+    std::string tables;
+    for (auto const& [key, path] : identity.tables) tables += fmt::format("{}{} = {}\n", table_mark, key, path);
     std::string const rest = fmt::format("{}{}\n{}{}\n{}{}\n{}\n{}", program_mark, identity.program, arithmetic_mark,
-                                         identity.arithmetic, members_mark, identity.members.text(), table, identity.scene);
+                                         identity.arithmetic, members_mark, identity.members.text(), tables, identity.scene);
     return fmt::format("{}\n{}{:016x}\n{}", title_line, checksum_mark, fnv1a(rest), rest);
 }
 
@@ -193,9 +223,11 @@ RunIdentity parse_identity(std::string const& text, std::string const& path) {
     require(identity.arithmetic == fused || identity.arithmetic == contracted);
     auto const members = MemberSet::parse(marked(next_line(), members_mark));
     std::string_view line = next_line();
-    if (line.starts_with(table_mark)) {
-        identity.table = marked(line, table_mark);
-        line = next_line();
+    for (; line.starts_with(table_mark); line = next_line()) {
+        std::string const table = marked(line, table_mark);
+        auto const end = table.find(" = ");
+        require(end != table.npos);
+        identity.tables[table.substr(0, end)] = table.substr(end + 3);
     }
     require(line.empty());
     if (!members) throw FileError(fmt::format("{}: its line of members is damaged", path));

@@ -1,6 +1,7 @@
 // What a run computes, and whether another one computes the same.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -8,13 +9,16 @@
 
 namespace slideway {
 
+/// Of the tables that a scene reads something each, by the keys that name them: study.table, load.plunger.table.
+using OfTables = std::map<std::string, std::string>;
+
 /// What a run computes, and with which program: two runs whose identities agree give every member the same bits.
 struct RunIdentity {
     std::string program;     // version, commit and compiler
     std::string arithmetic;  // `arithmetic_of` the instruction set
     MemberSet members;       // of the whole run, also where parts of it run elsewhere
     std::string scene;       // resolved, as TOML, `portable_scene`
-    std::string table = {};  // `table_of` the scene before, "" without one: where it lay is no part of what is computed
+    OfTables tables = {};    // `paths_of_tables` of the scene before: where they lay is no part of what is computed
 
     /// In words, or "": "joint.clearance was 0.0001, is 0.0002".  @param earlier what is continued
     std::string difference(RunIdentity const& earlier) const;
@@ -25,13 +29,15 @@ struct RunIdentity {
 /// processors and cards.
 std::string arithmetic_of(std::string_view isa);
 
-/// The path of the file of study.table in a resolved scene, quoted as it is there; "" without one.
-std::string table_of(std::string const& scene);
-/// What tells it from another: "3 rows, FNV-1a 0123456789abcdef", as the comment beside the path says; "" without one.
-std::string content_of_table(std::string const& scene);
-/// A resolved scene with another path there.  The comment beside it, with rows and checksum of the table, stays.
-std::string with_table(std::string const& scene, std::string_view quoted);
-/// The scene with a table beside it, wherever that lay: what a study that was moved has in common with the former.
+/// The paths of the files of tables in a resolved scene, quoted as they are there.
+OfTables paths_of_tables(std::string const& scene);
+/// What tells each from another: "3 rows, FNV-1a 0123456789abcdef", as the comment beside the path says.
+OfTables contents_of_tables(std::string const& scene);
+/// A resolved scene with other paths.  The comments beside them, with rows and checksums of the tables, stay.
+std::string with_tables(std::string const& scene, OfTables const& quoted);
+/// What the copy of a table is called beside the identity of a run.
+std::string copy_of_table(std::string_view key);
+/// The scene with these copies, wherever its tables lay: what a study that was moved has in common with the former.
 std::string portable_scene(std::string const& scene);
 
 /// A scene file that starts with the rest as comments, and with a checksum of what follows it.

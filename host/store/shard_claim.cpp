@@ -89,7 +89,9 @@ std::string count_text(std::uint64_t members) {
 
 }  // namespace
 
-ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)), has_table_(wanted.table.has_value()) {
+ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)) {
+    tables_.emplace();
+    for (auto const& [name, text] : wanted.tables) tables_->push_back(name);
     // Parts begin one after another: the first writes the identity.
     auto const begins = make_and_lock(folder_);
     bool const is_whole = wanted.part.empty();
@@ -140,7 +142,7 @@ void ShardClaim::begin(Wanted const& wanted) {
             mended_ = folder.damaged_identity();
             folder.mend();
             put_aside(damaged, wanted.mine);
-            write_table(wanted);
+            write_tables(wanted);
             return;
         }
         require_alone(wanted);
@@ -162,14 +164,15 @@ void ShardClaim::take_over(Wanted const& wanted) {
         remove_file(in_folder(folder_, shard_names::finished));
     }
     write_identity(folder_, wanted.identity);
-    write_table(wanted);
+    write_tables(wanted);
 }
 
-/// After the identity, so that it is never anybody's; one that a killed process had not written yet is written now.
-void ShardClaim::write_table(Wanted const& wanted) const {
-    if (!wanted.table) return;
-    std::string const path = in_folder(folder_, shard_names::table);
-    if (!is_there(path) || read_bytes(path) != *wanted.table) write_durably(path, *wanted.table);
+/// After the identity, so that they are never anybody's; those that a killed process had not written yet are written now.
+void ShardClaim::write_tables(Wanted const& wanted) const {
+    for (auto const& [name, text] : wanted.tables) {
+        std::string const path = in_folder(folder_, name);
+        if (!is_there(path) || read_text(path) != *text) write_durably(path, *text);
+    }
 }
 
 /// What is damaged must not stand in the way of its successor, but may be worth a look.  Other parts see to theirs.
@@ -192,13 +195,14 @@ void ShardClaim::require_alone(Wanted const& wanted) {
 }
 
 /// Shards go that a manifest lists, and others that a process was killed before it could list, or after it had removed the manifest.
-/// @param own_table a table is the run's
-void ShardClaim::remove_content(bool own_table) {
+/// @param all_tables and not only those of the run
+void ShardClaim::remove_content(bool all_tables) {
     std::vector<std::string> const listed = listed_names(folder_);
     for (std::string const& name : names_in(folder_)) {
         bool const is_listed = std::ranges::binary_search(listed, name);
         ShardFile const kind = is_listed ? kind_of(name) : kind_in(folder_, name);
-        if (kind != ShardFile::content || (name == shard_names::table && !own_table)) continue;
+        bool const is_kept = name.ends_with(shard_names::table) && !all_tables && tables_ && std::ranges::find(*tables_, name) == tables_->end();
+        if (kind != ShardFile::content || is_kept) continue;
         std::string const path = in_folder(folder_, name);
         bool const is_shard = (name.starts_with(shard_names::members) || name.starts_with(shard_names::statistics)) && !name.ends_with(".tmp");
         if (!is_shard || is_listed || is_shard_within(path)) remove_file(path);
@@ -214,7 +218,7 @@ std::vector<std::string> ShardClaim::remove_folder() {
         rename_file(in_folder(folder_, shard_names::identity), in_folder(folder_, shard_names::finished));
         sync_folder(folder_);
     }
-    remove_content(has_table_);
+    remove_content(false);
     sync_folder(folder_);
     for (ShardFile const kind : {ShardFile::identity, ShardFile::lock}) {
         for (std::string const& name : names_in(folder_)) {
@@ -240,7 +244,9 @@ void ShardClaim::remove_remains(std::string const& folder) {
 
 void ShardClaim::remove_merged(std::string const& folder) {
     ShardClaim claim(folder);
-    claim.has_table_ = !ShardFolder(folder).identity().table.empty();
+    RunIdentity const identity = ShardFolder(folder).identity();
+    claim.tables_.emplace();
+    for (auto const& [key, path] : identity.tables) claim.tables_->push_back(copy_of_table(key));
     claim.remove_folder();
 }
 

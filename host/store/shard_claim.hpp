@@ -1,7 +1,8 @@
 // The right to write into a folder of shards.
 #pragma once
 
-#include <cstddef>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ public:
         MemberSet mine;    // what this process, with its ranks, is to run
         std::string part;  // "3-of-8"; "" for the whole run
         bool resume = false;
-        std::optional<std::vector<std::byte>> table = std::nullopt;  // of members that the scene names: a copy is kept beside the identity
+        /// Texts of the tables that the scene reads, by the names of the copies that are kept beside the identity.
+        std::map<std::string, std::shared_ptr<std::string const>> tables = {};
     };
     /// Makes the folder or goes on with it.  @throws SceneError if it holds finished members of another identity, or of these and
     /// `resume` is not set, or shards of which nothing says what they belong to; FileError if another process works on them.
@@ -54,11 +56,11 @@ private:
     void require_one_division(std::string const& part) const;
     void put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine);
     void take_over(Wanted const& wanted);
-    void write_table(Wanted const& wanted) const;
-    void remove_content(bool own_table);
+    void write_tables(Wanted const& wanted) const;
+    void remove_content(bool all_tables);
 
     std::string const folder_;
-    bool has_table_ = true;  // among what the run keeps there
+    std::optional<std::vector<std::string>> tables_;  // copies that the run keeps there; none: of any name
     std::optional<FileLock> whole_, part_;
     MemberSet done_;
     std::vector<DamagedShard> damaged_;

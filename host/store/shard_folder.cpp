@@ -43,6 +43,12 @@ bool is_manifest(std::string_view name) {
     return take(name, shard_names::manifest) && take_number(name, manifest_digits) && name == ".txt";
 }
 
+/// "load.plunger.table.csv"
+bool is_table(std::string_view name) {
+    constexpr std::string_view of_keys = "abcdefghijklmnopqrstuvwxyz0123456789_.";
+    return name.size() > shard_names::table.size() && name.ends_with(shard_names::table) && name.find_first_not_of(of_keys) == name.npos;
+}
+
 /// "lock", "lock-begin", "lock-3-of-8"
 bool is_lock(std::string_view name) {
     if (!take(name, shard_names::lock)) return false;
@@ -162,7 +168,7 @@ ShardFile kind_of(std::string_view name) {
     for (std::string_view const identity : {shard_names::identity, shard_names::identity_copy, shard_names::finished}) {
         if (name == identity) return ShardFile::identity;
     }
-    if (is_shard(name) || is_manifest(name) || name == shard_names::table) return ShardFile::content;
+    if (is_shard(name) || is_manifest(name) || is_table(name)) return ShardFile::content;
     return take(name, shard_names::damaged) && is_shard(name) ? ShardFile::content : ShardFile::foreign;
 }
 

@@ -20,13 +20,13 @@ inline constexpr std::string_view identity_copy = "run-copy.toml";
 inline constexpr std::string_view finished = "finished.toml";
 inline constexpr std::string_view members = "members-", statistics = "statistics-";  // what shards begin with
 inline constexpr std::string_view damaged = "damaged-";  // before the name of one that is put aside
-inline constexpr std::string_view table = "table.csv";   // the study's table, for whom the original is out of reach
+inline constexpr std::string_view table = ".table.csv";  // what copies of the scene's tables end with (copy_of_table), for whom the originals are out of reach
 }  // namespace shard_names
 
 enum class ShardFile {
     foreign,
     identity,  // run.toml, its copy, finished.toml
-    content,   // shards, manifests, what is damaged, the table: of worth only beside the identity
+    content,   // shards, manifests, what is damaged, tables: of worth only beside the identity
     lock
 };
 
@@ -64,7 +64,7 @@ std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard)
 /// `manifest-*.txt`  one line per shard, written once the shard is on the disk; each line has a checksum of its own, so that a
 ///                   torn one is told.  Every process that writes has a manifest of its own.
 /// `damaged-*`   shards that were not what had been written, put aside
-/// `table.csv`   a copy of the study's table of members, if it has one
+/// `study.table.csv`, `load.*.table.csv`   copies of the tables that the scene reads
 /// `finished.toml`   the identity once the result stands elsewhere: the rest is to be removed
 /// `lock*`       held by the processes that write
 class ShardFolder {

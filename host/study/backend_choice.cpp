@@ -46,8 +46,11 @@ BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, 
                                                  : nullptr;
     if (request.kind == Kind::cuda) {
         if (lack == nullptr) return {cuda_backend(request.share), ""};
-        throw SceneError(fmt::format("{}: {} is \"{}\" ({}); use --backend cpu", scene.path, mechanism.on_cards ? "contact.law" : "mechanism.kind",
-                                     mechanism.on_cards ? contact_info(scene.parts).name : mechanism.name, lack));
+        bool const of_loads = mechanism.on_cards && !scene.parts.rigid && scene.parts.loads.count > 0;
+        std::string const what = !mechanism.on_cards ? fmt::format("mechanism.kind is \"{}\"", mechanism.name)
+                                 : of_loads          ? fmt::format("load.{} is given", scene.parts.loads.loads[0].name)
+                                                     : fmt::format("contact.law is \"{}\"", contact_info(scene.parts).name);
+        throw SceneError(fmt::format("{}: {} ({}); use --backend cpu", scene.path, what, lack));
     }
     Isa const isa = request.isa.value_or(best_isa(scene.parts));
     auto const cpu = cpu_backend(isa);

@@ -108,7 +108,7 @@ Provenance provenance(Scene const& scene, Backend const& backend, int threads) {
 
 RunIdentity run_identity(Scene const& scene, MemberSet const& members, Backend const& backend) {
     std::string const resolved = resolved_toml(scene);
-    return {build_info().text(), arithmetic_of(backend.isa()), members, portable_scene(resolved), table_of(resolved)};
+    return {build_info().text(), arithmetic_of(backend.isa()), members, portable_scene(resolved), paths_of_tables(resolved)};
 }
 
 }  // namespace slideway

@@ -50,7 +50,8 @@ bool starts_a_state(std::string_view name, Mechanism mechanism) {
     lines.fail(fmt::format("column {}: has no meaning for kind = \"{}\"; remove it", name, info(mechanism).name));
 }
 
-Column input_column(std::string_view name, Mechanism mechanism, CsvReader const& lines) {
+Column input_column(std::string_view name, Scene const& scene, CsvReader const& lines) {
+    Mechanism const mechanism = scene.parts.mechanism;
     Column column;
     column.name = name;
     if (name == "t") {
@@ -63,7 +64,7 @@ Column input_column(std::string_view name, Mechanism mechanism, CsvReader const&
         auto const found = std::find(names.begin(), names.end(), name);
         if (found != names.end()) column.kind = Column::Kind::state;
         column.state = static_cast<std::size_t>(found - names.begin());
-    } else if (column.key = find_key(name); column.key != nullptr) {
+    } else if (column.key = find_key(name, scene); column.key != nullptr) {
         column.kind = Column::Kind::key;
         if (!counts_for(*column.key, mechanism)) fail_meaningless(name, mechanism, lines);
         if (starts_a_state(name, mechanism)) {
@@ -73,7 +74,7 @@ Column input_column(std::string_view name, Mechanism mechanism, CsvReader const&
                                          fmt::join(state_names(mechanism), ", ")));
         }
     } else {
-        std::vector<std::string_view> names = numeric_key_names();
+        std::vector<std::string_view> names = numeric_key_names(scene);
         names.emplace_back("contact.law");
         std::string_view const meant = nearest_name(name, names);
         lines.fail(
@@ -89,12 +90,13 @@ std::string unit_of(Column const& column, Mechanism mechanism) {
     return column.kind == Column::Kind::state ? state_info(info(mechanism), static_cast<int>(column.state)).unit : "s";
 }
 
-std::vector<Column> read_header(Mechanism mechanism, CsvReader const& lines) {
+std::vector<Column> read_header(Scene const& scene, CsvReader const& lines) {
+    Mechanism const mechanism = scene.parts.mechanism;
     std::vector<Column> columns;
     for (std::string const& text : lines.fields()) {
         ColumnHeader const header = column_header(text);
         std::string const& name = header.name;
-        Column column = input_column(name, mechanism, lines);
+        Column column = input_column(name, scene, lines);
         if (column.kind != Column::Kind::ignored && column.kind != Column::Kind::law) {
             std::string const unit = unit_of(column, mechanism);
             auto const factor = header.factor_to(unit);
@@ -260,7 +262,7 @@ StateTable state_table(Scene const& scene, std::span<double const> states, std::
 StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene) {
     CsvReader lines(in, name);
     if (!lines.next()) lines.fail("the table is empty");
-    std::vector<Column> columns = read_header(scene.parts.mechanism, lines);
+    std::vector<Column> columns = read_header(scene, lines);
     StateTable table = empty_table(scene);
     for (Column const& column : columns) {
         if (column.kind == Column::Kind::law || column.kind == Column::Kind::key) {

@@ -1,16 +1,15 @@
 #include "host/study/study_run.hpp"
 
 #include <filesystem>
+#include <map>
 #include <system_error>
 
 #include <unistd.h>
 
 #include <fmt/format.h>
 
-#include "host/base/bytes.hpp"
 #include "host/base/durable_file.hpp"
 #include "host/config/document.hpp"
-#include "host/config/loads.hpp"
 #include "host/store/finished_result.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
@@ -43,15 +42,11 @@ void remove_shards_of_finished(std::string const& result, std::string const& fol
     if (ShardFolder::exists(folder) && why_not_finished(result, ShardFolder(folder).identity()).empty()) ShardClaim::remove_merged(folder);
 }
 
-/// The table of members, so that the folder of shards is all that a merge needs.
-std::optional<std::vector<std::byte>> bytes_of_table(Scene const& scene) {
-    if (scene.design.table == nullptr) return {};
-    MemberTable const& table = *scene.design.table;
-    std::vector<std::byte> bytes = read_bytes(table.path);
-    if (fnv1a(bytes) != table.checksum) {
-        throw FileError(fmt::format("{}: has changed since it was read; start the run again", table.path));
-    }
-    return bytes;
+/// The tables as they were read, so that the folder of shards is all that a merge needs.
+std::map<std::string, std::shared_ptr<std::string const>> copies_of_tables(Scene const& scene) {
+    std::map<std::string, std::shared_ptr<std::string const>> copies;
+    for (TableFile const& table : scene.tables) copies[copy_of_table(table.key)] = table.text;
+    return copies;
 }
 
 OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
@@ -107,27 +102,18 @@ std::string shard_folder_of(std::string const& output) { return followed(output)
 Scene scene_of(ShardFolder const& folder) {
     std::string const& text = folder.identity().scene;
     Scene scene = parse_scene(text, in_folder(folder.path(), shard_names::identity));
-    if (scene.design.table != nullptr && content_of_table(text) != content_of_table(resolved_toml(scene))) {
-        throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there",
-                                    in_folder(folder.path(), shard_names::table)));
-    }
-    if (scene.loads != nullptr) {
-        for (auto const& [name, table] : scene.loads->rows()) {
-            if (table.function != nullptr && text.find(fmt::format("FNV-1a {:016x}", table.checksum)) == text.npos)
-                throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there", table.path));
-        }
+    OfTables const found = contents_of_tables(resolved_toml(scene));
+    for (auto const& [key, content] : contents_of_tables(text)) {
+        auto const here = found.find(key);
+        if (here != found.end() && here->second != content)
+            throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there", in_folder(folder.path(), copy_of_table(key))));
     }
     return scene;
 }
 
 std::vector<std::string> inputs_of(Scene const& scene) {
     std::vector<std::string> inputs{scene.path};
-    if (scene.design.table != nullptr) inputs.push_back(scene.design.table->path);
-    if (scene.loads != nullptr) {
-        for (auto const& [name, table] : scene.loads->rows()) {
-            if (!table.path.empty()) inputs.push_back(table.path);
-        }
-    }
+    for (TableFile const& table : scene.tables) inputs.push_back(table.path);
     return inputs;
 }
 
@@ -147,7 +133,7 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
         }
     }
     if (options.force && !options.resume && !options.part.of_array && target_.replaces()) remove_shards_of_finished(target_.path(), folder);
-    ShardClaim::Wanted const wanted{identity, mine_, options.part.name(), options.resume, bytes_of_table(scene)};
+    ShardClaim::Wanted const wanted{identity, mine_, options.part.name(), options.resume, copies_of_tables(scene)};
     brief_.claim = [this, wanted] { claim(wanted); };
     if (may_be_short())
         work_ = {mine_, 0, &brief_};
@@ -276,8 +262,7 @@ Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& sha
     else
         parse_statistics(bytes, shards.front().name, &origin.maker);
     RunIdentity const& identity = folder.identity();
-    // The copy of the table goes with the folder.
-    origin.scene = identity.table.empty() ? identity.scene : with_table(identity.scene, identity.table);
+    origin.scene = with_tables(identity.scene, identity.tables);  // the copies go with the folder
     return origin;
 }
 

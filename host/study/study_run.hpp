@@ -52,7 +52,7 @@ struct StudyOptions {
 /// The folder of the shards of a result.
 std::string shard_folder_of(std::string const& output);
 
-/// What a study reads beside what the program brings: its scene and its table.
+/// What a study reads beside what the program brings: its scene and its tables.
 std::vector<std::string> inputs_of(Scene const& scene);
 
 /// What the ranks compute together.
@@ -134,7 +134,7 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
 /// The `verify` of merge_study: the check of a result's resolution, as `study.verify` of the scene asks for it.  What it refers to must outlive it.
 std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress);
 
-/// The scene of the run that left a folder, its table of members from the copy there.  @throws SceneError, also if the copy is gone;
+/// The scene of the run that left a folder, its tables from the copies there.  @throws SceneError, also if one is gone;
 /// FileError if it holds something else than what was run
 Scene scene_of(ShardFolder const& folder);
 

@@ -106,6 +106,24 @@ def test_runs_with_other_values_are_those_of_the_scene_with_them() -> None:
     assert not np.array_equal(changed.peak_normal_force, ensemble.run().peak_normal_force)
 
 
+def test_tables_are_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    table = tmp_path / "p.csv"
+    table.write_text("time [s], force [N]\n0, 0\n1, 40\n")
+    load = {"table": "p.csv", "over": "time", "column": "force", "force_x": 1, "scale": 2}
+    study = {"kind": "ensemble", "members": 2, "duration": "5 ms", "quantities": ["load_work"]}
+    monkeypatch.chdir(tmp_path)
+    ensemble = slideway.Ensemble({"schema": 1, "load": {"push": load}, "study": study})
+    changes = {"load.push.scale": 4}
+    work, more = ensemble.run().load_work.values, ensemble.run(set=changes).load_work.values
+    assert (work != more).all()
+    table.write_text("time [s], force [N]\n0, 70\n1, 40\n")
+    monkeypatch.chdir(tmp_path.parent)
+    np.testing.assert_array_equal(ensemble.run().load_work.values, work)
+    np.testing.assert_array_equal(ensemble.run(set=changes).load_work.values, more)
+    table.unlink()
+    np.testing.assert_array_equal(ensemble.run(set=changes).load_work.values, more)
+
+
 def test_members_are_those_that_are_given() -> None:
     ensemble = slideway.Ensemble(small)
     drawn = ensemble.members()

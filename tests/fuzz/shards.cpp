@@ -50,10 +50,10 @@ void read_identity(std::string const& text) {
     if (!accepted([&] { identity = parse_identity(text, "run.toml"); })) return;
     std::string const written = identity_text(identity);
     RunIdentity const again = parse_identity(written, "run.toml");
-    require(again.difference(identity).empty() && again.table == identity.table, "an identity reads the same", written);
+    require(again.difference(identity).empty() && again.tables == identity.tables, "an identity reads the same", written);
     std::string const portable = portable_scene(identity.scene);
     require(portable_scene(portable) == portable, "a portable scene is portable", portable);
-    require(with_table(identity.scene, table_of(identity.scene)) == identity.scene, "its own table changes nothing", identity.scene);
+    require(with_tables(identity.scene, paths_of_tables(identity.scene)) == identity.scene, "its own table changes nothing", identity.scene);
     identity.difference(some_identity());
     some_identity().difference(identity);
 }

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/scene_tables.hpp"
+
 namespace slideway::library_test {
 namespace {
 
@@ -37,6 +39,26 @@ TEST(Library, EnsemblesInThreadsOfTheirOwnGiveWhatTheyGiveAlone) {
         threads.clear();
         for (std::size_t i = 0; i < together.size(); ++i) EXPECT_EQ(together[i], alone[i / 2]) << "ensemble " << i / 2;
     }
+}
+
+/// Tables count as they were when the scene was read.
+TEST(Library, EnsemblesKeepTheirTables) {
+    testing::TableFolder const folder;
+    folder.write("p.csv", "time [s], force [N]\n0, 0\n1 , 40\n");
+    folder.write("m.csv", "initial.y [mm]\n0.01\n0.02\n0.03\n");
+    folder.write("s.toml", "schema = 1\n[load.push]\ntable = \"p.csv\"\nover = \"time\"\ncolumn = \"force\"\nforce_x = 1\nscale = 2\n"
+                           "[study]\nduration = \"5 ms\"\ndesign = \"table\"\ntable = \"m.csv\"\nquantities = [\"load_work\"]\n");
+    Ensemble const ensemble = Ensemble::read((folder.path / "s.toml").string());
+    Settings const doubled{{"load.push.scale", "4"}};
+    std::string const alone = hash_of(ensemble, 1), other = hash_of(ensemble.with(doubled), 1), linear = hash_of(ensemble.with({{"load.push.interpolation", "linear"}}), 1);
+    EXPECT_NE(alone, other);
+    folder.write("p.csv", "time [s], force [N]\n0, 7\n1 , 40\n");
+    std::filesystem::remove(folder.path / "m.csv");
+    EXPECT_EQ(hash_of(ensemble, 1), alone);
+    EXPECT_EQ(hash_of(ensemble.with(doubled), 1), other);
+    EXPECT_EQ(hash_of(ensemble.with(doubled).with({{"load.push.scale", "2"}}), 1), alone);
+    EXPECT_EQ(hash_of(ensemble.with({{"load.push.interpolation", "linear"}}), 1), linear);
+    EXPECT_THROW(ensemble.with({{"study.table", "m2.csv"}}), Error);
 }
 
 TEST(Library, RefusesWhatTheProgramRefuses) {

@@ -193,10 +193,10 @@ TEST_F(Resume, LeavesWhatIsNotOfTheRunInItsFolderAndSaysSo) {
     make_unfinished();
     write("s.nc.shards/notes.txt", "mine");
     write("s.nc.shards/members-0000000999.nc", "of the board");
-    write("s.nc.shards/table.csv", "a\n1\n");
+    write("s.nc.shards/study.table.csv", "a\n1\n");
     Outcome const outcome = run_scene({"--quiet", "--resume"});
     EXPECT_EQ(outcome.code, 0);
-    EXPECT_NE(outcome.err.find("warning: s.nc.shards: stays, for it holds what is not of this run: members-0000000999.nc, notes.txt, table.csv\n"),
+    EXPECT_NE(outcome.err.find("warning: s.nc.shards: stays, for it holds what is not of this run: members-0000000999.nc, notes.txt, study.table.csv\n"),
               std::string::npos)
         << outcome.err;
     EXPECT_EQ(file_text(path("s.nc.shards/members-0000000999.nc")), "of the board");

@@ -89,23 +89,23 @@ TEST_F(TableRun, IsMergedWithoutTheTable) {
 TEST_F(TableRun, WithAnotherTableIsRefused) {
     leave_shards();
     write_rows("a/rows.csv", 0.071);
-    expect_refusal(2, "holds 12 finished members of another run (study.table was 16 rows, FNV-1a ",
+    expect_refusal(2, "holds 12 finished members of another run (study.table: rows.csv has changed since the run began, from 16 rows, FNV-1a ",
                    {"run", "a/s.toml", "-o", "a/s.nc", "--resume"});
     write_rows("a/rows.csv");
     ASSERT_EQ(run_in("a", {"--resume"}).code, 0);
     write_rows("a/rows.csv", 0.071);
-    expect_refusal(2, "it is the result of another run (study.table was 16 rows, FNV-1a ",
+    expect_refusal(2, "it is the result of another run (study.table: rows.csv has changed since the run began, from 16 rows, FNV-1a ",
                    {"run", "a/s.toml", "-o", "a/s.nc", "--resume"});
 }
 
 TEST_F(TableRun, IsNotMergedWithAnotherTableInPlaceOfTheCopy) {
     leave_shards();
-    EXPECT_EQ(file_text(path("a/s.nc.shards/table.csv")), file_text(path("a/rows.csv")));
-    write_rows("a/s.nc.shards/table.csv", 0.071);
-    expect_refusal(4, "a/s.nc.shards/table.csv: is not the table of this run (its checksum differs)",
+    EXPECT_EQ(file_text(path("a/s.nc.shards/study.table.csv")), file_text(path("a/rows.csv")));
+    write_rows("a/s.nc.shards/study.table.csv", 0.071);
+    expect_refusal(4, "a/s.nc.shards/study.table.csv: is not the table of this run (its checksum differs)",
                    {"merge", "a/s.nc.shards", "-o", "m.nc"});
-    fs::remove(path("a/s.nc.shards/table.csv"));
-    expect_refusal(2, "a/s.nc.shards/table.csv cannot be read", {"merge", "a/s.nc.shards", "-o", "m.nc"});
+    fs::remove(path("a/s.nc.shards/study.table.csv"));
+    expect_refusal(2, "a/s.nc.shards/study.table.csv cannot be read", {"merge", "a/s.nc.shards", "-o", "m.nc"});
     // Whoever goes on has the table, and puts it there again.
     EXPECT_EQ(run_in("a", {"--resume", "--shard", "1/1"}).code, 0);
     EXPECT_EQ(run({"merge", "a/s.nc.shards", "-o", "m.nc"}).code, 0);
@@ -164,6 +164,61 @@ TEST_F(TableRun, KeepsLabelsThroughShardsAndMerges) {
     ASSERT_EQ(run({"merge", "a/s.nc.shards", "-o", "m.nc"}).code, 0);
     EXPECT_EQ(hash_of("m.nc"), hash);
     EXPECT_EQ(ResultReader(path("m.nc").string()).texts("member_label"), labels);
+}
+
+/// A pump whose load is read from a table beside its scene, and whose members are the rows of another.
+class LoadTableRun : public TableRun {
+protected:
+    LoadTableRun() {
+        write("a/s.toml", std::string(scene) + "[load.plunger]\ntable = \"indicator.csv\"\nover = \"crank_angle\"\ncolumn = \"pressure\"\nforce_x = -1\nscale = 1e-6\n");
+        write_pressures("a/indicator.csv", 40);
+    }
+    void write_pressures(std::string const& name, int bar) const {
+        write(name, fmt::format("crank_angle [deg], pressure [bar]\n0, 1\n90, 2\n180, {}\n360, 1\n", bar));
+    }
+};
+
+TEST_F(LoadTableRun, GoesOnWhereItsFolderWasMoved) {
+    std::string const hash = whole_hash();
+    leave_shards();
+    fs::rename(path("a"), path("b"));
+    Outcome const outcome = run_in("b", {"--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(hash_of("b/s.nc"), hash);
+    EXPECT_FALSE(fs::exists(path("b/s.nc.shards")));
+    // The scene that the result has runs again wherever its tables lie beside it.
+    write("again.toml", ResultReader(path("b/s.nc").string()).attribute("scene"));
+    fs::rename(path("b/indicator.csv"), path("indicator.csv"));
+    fs::rename(path("b/rows.csv"), path("rows.csv"));
+    Outcome const again = run({"run", "again.toml", "--no-progress", "-o", "again.nc"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(again.err.find("load.plunger.table is not there any more; indicator.csv is read in its place"), std::string::npos) << again.err;
+    EXPECT_EQ(hash_of("again.nc"), hash);
+}
+
+TEST_F(LoadTableRun, IsMergedWithoutItsTables) {
+    std::string const hash = whole_hash(), table = fs::canonical(path("a")) / "indicator.csv";
+    ASSERT_EQ(run_in("a", {"--shard", "1/1"}).code, 0);
+    fs::rename(path("a/s.nc.shards"), path("shards"));
+    fs::remove_all(path("a"));
+    EXPECT_EQ(run({"merge", "shards", "-o", "m.nc"}).code, 0);
+    EXPECT_EQ(hash_of("m.nc"), hash);
+    std::string const said = ResultReader(path("m.nc").string()).attribute("scene");
+    EXPECT_NE(said.find("\ntable = \"" + table + "\"  # 4 rows"), said.npos) << said;
+    write_pressures("shards/load.plunger.table.csv", 41);
+    expect_refusal(4, "shards/load.plunger.table.csv: is not the table of this run (its checksum differs)", {"merge", "shards", "-o", "n.nc"});
+}
+
+TEST_F(LoadTableRun, WithAnotherTableIsRefusedByItsName) {
+    leave_shards();
+    write_pressures("a/indicator.csv", 41);
+    std::string const words = "of another run (load.plunger.table: indicator.csv has changed since the run began, from 4 rows, FNV-1a ";
+    std::vector<std::string> const resume{"run", "a/s.toml", "-o", "a/s.nc", "--resume"};
+    expect_refusal(2, words, resume);
+    write_pressures("a/indicator.csv", 40);
+    ASSERT_EQ(run_in("a", {"--resume"}).code, 0);
+    write_pressures("a/indicator.csv", 41);
+    expect_refusal(2, words, resume);
 }
 
 }  // namespace

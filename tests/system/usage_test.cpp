@@ -50,6 +50,12 @@ TEST_F(Usage, OfCardsForOtherMechanisms) {
     EXPECT_EQ(run({"check", "s.toml"}).out.find("of slider_crank alone"), std::string::npos);
 }
 
+TEST_F(Usage, OfCardsForLoads) {
+    write("l.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[load.push]\nforce_x = 1\n");
+    for (char const* const command : {"run", "check"})
+        expect_refusal(2, "l.toml: load.push is given (the kernels for cards have no loads); use --backend cpu", {command, "l.toml", "--backend", "cuda"});
+}
+
 TEST_F(Usage, OfCardsForRigidContacts) {
     write("r.toml", "schema = 1\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n");
     for (char const* const command : {"run", "check"}) {

@@ -1,16 +1,20 @@
 // [load.<name>]: what a scene may say of loads, and what it is told where it errs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "host/config/loads.hpp"
 #include "kernels/loads/table_value.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "tests/support/scene_fixture.hpp"
+#include "tests/support/scene_tables.hpp"
 
 namespace slideway::scene_loads_test {
 namespace {
@@ -176,17 +180,83 @@ TEST_F(SceneLoadFiles, MayHaveAMillionRows) {
     EXPECT_TRUE(contains(error_of(this->scene(csv + "1000000,3\n", more)), "at most 1000000 rows"));
 }
 
-TEST(SceneLoads, OfOneProcessKeepTheirKeysApart) {
-    // Names in another order have their own places all the same.
+TEST(SceneLoads, HaveKeysOfTheirOwn) {
     Scene const one = scene_of("schema = 1\n[load.gas]\nforce_x = 1\n[load.spring]\nforce_x = 2\n");
     Scene const other = scene_of("schema = 1\n[load.spring]\nforce_x = 4\n[load.gas]\nforce_x = 3\n");
     EXPECT_EQ(number(one, 0, "force_x"), 1);
     EXPECT_EQ(number(other, 0, "force_x"), 4);
-    EXPECT_EQ(number(other, 1, "force_x"), 3);
-    Scene const none = scene_of("schema = 1\n");
-    EXPECT_FALSE(counts_for(*find_key("load.gas.force_x"), none.parts));
-    EXPECT_TRUE(counts_for(*find_key("load.gas.force_x"), one.parts));
-    EXPECT_TRUE(contains(error_of("schema = 1\n[study]\nmembers = 2\n[study.vary]\n\"load.gas.force_x\" = { dist = \"unif\", low = 1, high = 2 }\n"), "load.gas.force_x"));
+    EXPECT_EQ(find_key("load.gas.force_x", one)->get(one.inputs), 1);
+    EXPECT_EQ(find_key("load.gas.force_x", other)->get(other.inputs), 3);
+    EXPECT_EQ(find_key("load.gas.force_x", scene_of("schema = 1\n")), nullptr);
+    EXPECT_EQ(find_key("load.gas.force_x"), nullptr);
+}
+
+TEST(SceneLoads, OfAnyNumberOfScenesOfAProcessHaveRoom) {
+    for (int scenes = 0; scenes < 40; ++scenes) {
+        std::string text = "schema = 1\n";
+        for (int i = 0; i < 8; ++i) text += fmt::format("[load.of_{}_{}]\nforce_x = {}\nscale = 2\n", (scenes * 7 + i * i) % 31, (scenes + i) % 10, i);
+        Scene const scene = scene_of(text);
+        for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(number(scene, i, "force_x"), static_cast<double>(i));
+    }
+}
+
+TEST(SceneLoads, SayThatANumberMustBeGivenToVary) {
+    std::string const loads = "schema = 1\n[load.plunger]\nforce_x = 1\n[study]\n";
+    auto const vary = [](std::string const& key) { return "[study.vary]\n\"" + key + "\" = { dist = \"unif\", low = 0, high = 1 }\n"; };
+    std::string const words = "load.plunger.force_y is not given in [load.plunger] (a number must be given to vary); add force_y = 0";
+    expect_refused(loads + "members = 2\n" + vary("load.plunger.force_y"), "scene.toml:7: " + words);
+    expect_refused(loads + "kind = \"sweep\"\nmembers = 1\nparameter = \"load.plunger.force_y\"\nvalues = [1]\n", "scene.toml:7: " + words);
+    expect_refused(loads + "members = 2\n" + vary("load.plunger.scale"), "add scale = 1");
+    expect_refused(loads + "members = 2\n" + vary("load.piston.force_y"), "load.piston.force_y is of no load of the scene (there is no [load.piston])");
+    expect_refused(loads + "members = 2\n" + vary("load.plunger.force"), "did you mean \"load.plunger.force_x\"?");
+    testing::TableFolder const folder;
+    folder.write("m.csv", "load.plunger.force_y [N]\n1\n");
+    EXPECT_EQ(folder.error(loads.substr(11) + "design = \"table\"\ntable = \"m.csv\"\n"), "m.csv:1: " + words);
+    Scene scene = scene_of(loads);
+    EXPECT_THROW(take_members(scene, {"load.plunger.force_y"}, std::vector<double>{1}), SceneError);
+    take_members(scene, {"load.plunger.force_x"}, std::vector<double>{7});
+    EXPECT_EQ(member_inputs(scene, 0).*load_inputs[scene.loads->load(0).force[0]], 7);
+}
+
+TEST(SceneLoads, WarnOfAPointWithoutAForce) {
+    Scene const scene = scene_of("schema = 1\n[load.gas]\ntorque_z = 1\npoint_y = 2e-3\n");
+    EXPECT_EQ(std::ranges::count(scene.warnings, "scene.toml:4: load.gas.point_y has no effect, for the load has no force"), 1);
+    EXPECT_TRUE(std::ranges::none_of(scene_of("schema = 1\n[load.gas]\nforce_x = 1\npoint_y = 2e-3\n").warnings,
+                                     [](std::string const& line) { return contains(line, "load.gas"); }));
+    expect_refused("schema = 1\n[load.gas]\npoint_y = 2e-3\n", "load.gas.force_x is missing (a load without a force or a torque does nothing)");
+}
+
+TEST_F(SceneLoadFiles, ThatBeginAnewWithAColumnAreOfNoContinuedSweep) {
+    std::string const sweep = "[study]\nkind = \"sweep\"\nmembers = 1\nparameter = \"joint.clearance\"\nvalues = [5e-4, 4e-4]\ntransient_revolutions = 0\n"
+                              "revolutions = 2\nphase = 0\n";
+    auto const scene_with = [&](std::string const& csv, std::string const& over, std::string const& more = "") {
+        return scene(csv, "over = \"" + over + "\"\ncolumn = \"pressure\"\n" + more) + sweep;
+    };
+    std::string const begins_anew = "study.start is \"continue\" (columns begin at time 0 in the first turn, where the table of load.gas would jump)";
+    std::string const one_turn = scene_with("crank_angle [deg], pressure\n0, 1\n100, 2\n360, 1\n", "crank_angle");
+    EXPECT_EQ(error_of(one_turn + "start = \"continue\"\n"), "");
+    std::string const two_turns = scene_with("crank_angle [deg], pressure\n0, 1\n100, 2\n720, 1\n", "crank_angle");
+    expect_refused(two_turns + "start = \"continue\"\n", begins_anew);
+    EXPECT_EQ(error_of(two_turns), "");
+    std::string const ends = scene_with("crank_angle [deg], pressure\n0, 1\n100, 2\n360, 1\n", "crank_angle", "repeats = false\n");
+    expect_refused(ends + "start = \"continue\"\n", begins_anew);
+    expect_refused(scene_with("time [s], pressure\n0, 1\n1, 1\n", "time", "repeats = true\n") + "start = \"continue\"\n", begins_anew);
+    EXPECT_EQ(error_of(scene_with("x [m], pressure\n0, 1\n1, 2\n", "x") + "start = \"continue\"\n"), "");
+}
+
+TEST_F(SceneLoadFiles, AreReadOnce) {
+    std::string const text = scene("crank_angle [deg], pressure\n0, 1\n90, 5\n360, 1\n");
+    Scene const first = scene_of(text);
+    std::filesystem::remove(folder_ / "p.csv");
+    Scene const other = parse_scene(text, "scene.toml", {{"load.gas.scale", "7"}}, &first);
+    EXPECT_EQ(other.loads->rows()[0].table.function, first.loads->rows()[0].table.function);
+    EXPECT_EQ(number(other, 0, "scale"), 7);
+    EXPECT_EQ(other.tables[0].path, first.tables[0].path);
+    // Other pieces through the same rows; not a second text of them.
+    Scene const straight = parse_scene(text, "scene.toml", {{"load.gas.interpolation", "linear"}}, &other);
+    EXPECT_EQ(straight.tables[0].text, first.tables[0].text);
+    EXPECT_NEAR(table_point(straight.parts.loads.loads[0].table, std::numbers::pi / 4).value, 3, 1e-12);
+    EXPECT_THROW(scene_of(text), SceneError);
 }
 
 }  // namespace

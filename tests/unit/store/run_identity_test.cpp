@@ -172,9 +172,9 @@ TEST(RunIdentity, OfATableDoesNotDependOnWhereItLies) {
     for (char const* const path :
          {"\"/a/rows.csv\"", "\"/a/\\\"  # b\\\".csv\"", "\"/[study]/table = .csv\"", "\"/a#\\n.csv\"", "\"/ä/☃ \xf0\x9f\x98\x80/rows.csv\""}) {
         std::string const text = scene_of_table(path);
-        EXPECT_EQ(table_of(text), path);
-        EXPECT_EQ(portable_scene(text), scene_of_table("\"table.csv\""));
-        EXPECT_EQ(with_table(portable_scene(text), path), text);
+        EXPECT_EQ(paths_of_tables(text), (OfTables{{"study.table", path}}));
+        EXPECT_EQ(portable_scene(text), scene_of_table("\"study.table.csv\""));
+        EXPECT_EQ(with_tables(portable_scene(text), {{"study.table", path}}), text);
     }
     std::string const none = identity_of().scene;
     EXPECT_EQ(portable_scene(none), none);
@@ -185,22 +185,43 @@ TEST(RunIdentity, OfATableDoesNotDependOnWhereItLies) {
     EXPECT_EQ(portable_scene("a = 1\n[study]\nverify = 1\nseed = 1\n[later]\nverify = 3\n"), "a = 1\n[study]\nseed = 1\n[later]\nverify = 3\n");
     char const* const twice = "a = 1\n[study]\nverify = 1\nseed = 1\nverify = 2\n";
     EXPECT_EQ(portable_scene(twice), twice);
-    EXPECT_EQ(table_of(none), "");
+    EXPECT_TRUE(paths_of_tables(none).empty());
 }
 
 TEST(RunIdentity, OfATableTellsThatItsContentChanged) {
     RunIdentity before = identity_of(), now = before;
     before.scene = portable_scene(scene_of_table("\"/a.csv\""));
-    now.scene = portable_scene(scene_of_table("\"/b.csv\"", "fedcba9876543210"));
+    now.scene = portable_scene(scene_of_table("\"/c/b.csv\"", "fedcba9876543210"));
+    now.tables = paths_of_tables(scene_of_table("\"/c/b.csv\""));
     EXPECT_EQ(now.difference(before),
-              "study.table was 3 rows, FNV-1a 0123456789abcdef, is 3 rows, FNV-1a fedcba9876543210");
+              "study.table: b.csv has changed since the run began, from 3 rows, FNV-1a 0123456789abcdef to 3 rows, FNV-1a fedcba9876543210");
+}
+
+TEST(RunIdentity, OfLoadsHasTheirTablesEachUnderItsKey) {
+    auto const scene_at = [](std::string const& gas, std::string const& members, std::string const& checksum) {
+        return "schema = 1\n\n[load.gas]\ntable = " + gas + "  # 5 rows, FNV-1a " + checksum + "\nscale = 2  # 1\n\n[load.pull]\nforce_x = 1\n\n[study]\ntable = " +
+               members + "  # 3 rows, FNV-1a 0123456789abcdef\n";
+    };
+    std::string const sum = "00000000000000aa", text = scene_at("\"/long/way/p.csv\"", "\"/m.csv\"", sum);
+    EXPECT_EQ(paths_of_tables(text), (OfTables{{"load.gas.table", "\"/long/way/p.csv\""}, {"study.table", "\"/m.csv\""}}));
+    EXPECT_EQ(contents_of_tables(text), (OfTables{{"load.gas.table", "5 rows, FNV-1a " + sum}, {"study.table", "3 rows, FNV-1a 0123456789abcdef"}}));
+    EXPECT_EQ(portable_scene(text), scene_at("\"load.gas.table.csv\"", "\"study.table.csv\"", sum));
+    EXPECT_EQ(with_tables(portable_scene(text), paths_of_tables(text)), text);
+    RunIdentity before = identity_of(), now = before;
+    before.scene = portable_scene(text), before.tables = paths_of_tables(text);
+    std::string const other = scene_at("\"/p.csv\"", "\"/elsewhere/m.csv\"", "00000000000000bb");
+    now.scene = portable_scene(other), now.tables = paths_of_tables(other);
+    EXPECT_EQ(now.difference(before), "load.gas.table: p.csv has changed since the run began, from 5 rows, FNV-1a 00000000000000aa to 5 rows, FNV-1a 00000000000000bb");
+    RunIdentity const back = parse_identity(identity_text(before), "run.toml");
+    EXPECT_EQ(back.tables, before.tables);
+    EXPECT_EQ(back.scene, before.scene);
 }
 
 TEST(RunIdentity, RemembersWhereTheTableLay) {
     RunIdentity identity = identity_of();
-    identity.table = "\"/a/rows.csv\"";
+    identity.tables["study.table"] = "\"/a/rows.csv\"";
     RunIdentity const back = parse_identity(identity_text(identity), "run.toml");
-    EXPECT_EQ(back.table, identity.table);
+    EXPECT_EQ(back.tables, identity.tables);
     EXPECT_EQ(back.scene, identity.scene);
     EXPECT_EQ(back.difference(identity_of()), "");
 }

@@ -39,7 +39,11 @@ constexpr char const* look_alikes[] = {"members-of-the-board.nc",
                                        "lock-begin-1",
                                        "locked",
                                        "lock.tmp",
-                                       "table.csv.bak",
+                                       "table.csv",
+                                       ".table.csv",
+                                       "my-table.csv",
+                                       "Load.gas.table.csv",
+                                       "study.table.csv.bak",
                                        "notes.txt",
                                        ".tmp"};
 
@@ -75,7 +79,7 @@ TEST_F(Removal, KnowsOurNamesFromThoseThatLookAlike) {
          {"members-0000000003.nc", "members-12345678901.nc", "members-0000000003.nc.tmp", "statistics-0000000064-1.bin",
           "statistics-0000000064-10.bin", "statistics-0000000064-0.bin.tmp", "manifest-000001.txt",
           "manifest-1000000.txt", "manifest-000001.txt.tmp", "damaged-members-0000000003.nc",
-          "damaged-statistics-0000000003-2.bin", "table.csv", "table.csv.tmp"}) {
+          "damaged-statistics-0000000003-2.bin", "study.table.csv", "study.table.csv.tmp", "load.gas_2.table.csv"}) {
         EXPECT_EQ(kind_of(name), ShardFile::content) << name;
     }
     for (char const* const name : {"run.toml", "run.toml.tmp", "run-copy.toml", "run-copy.toml.tmp", "finished.toml", "finished.toml.tmp"}) {
@@ -193,21 +197,24 @@ TEST_F(Removal, EmptiesTheFolderBehindALinkAndLeavesBoth) {
     EXPECT_TRUE(fs::is_empty(path("scratch")));
 }
 
-TEST_F(Removal, TakesTheCopyOfTheTableAlong) {
+TEST_F(Removal, TakesTheCopiesOfTablesAlong) {
     ShardClaim::Wanted with_table = wanted();
-    with_table.table = std::vector<std::byte>(3, std::byte{'1'});
+    for (char const* const name : {"study.table.csv", "load.gas.table.csv"}) with_table.tables[name] = std::make_shared<std::string const>("111");
+    with_table.identity.tables = {{"study.table", "\"a.csv\""}, {"load.gas.table", "\"b.csv\""}};
     {
         ShardClaim const claim(shards_, with_table);
-        EXPECT_EQ(testing::bytes_of(file("table.csv")), "111");
+        for (auto const& [name, text] : with_table.tables) EXPECT_EQ(testing::bytes_of(file(name)), "111");
         put(0);
     }
     // One that a killed process had not written is made up for.
-    fs::remove(file("table.csv"));
+    fs::remove(file("load.gas.table.csv"));
     with_table.resume = true;
     ShardClaim claim(shards_, with_table);
-    EXPECT_EQ(testing::bytes_of(file("table.csv")), "111");
-    claim.remove_folder();
-    EXPECT_FALSE(fs::exists(shards_));
+    EXPECT_EQ(testing::bytes_of(file("load.gas.table.csv")), "111");
+    // What has such a name and is of no table of the run is somebody's.
+    testing::put(file("load.air.table.csv"), "mine");
+    EXPECT_EQ(claim.remove_folder(), std::vector<std::string>{"load.air.table.csv"});
+    EXPECT_EQ(names_in(shards_), std::vector<std::string>{"load.air.table.csv"});
 }
 
 }  // namespace

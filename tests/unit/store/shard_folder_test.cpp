@@ -93,7 +93,7 @@ TEST_F(Shards, AreNotThoseOfAFolderWithoutIdentity) {
 }
 
 TEST_F(Shards, KeepTheirIdentityWhicheverBitOfEitherFileChanges) {
-    RunIdentity identity{"a program", "fused", range(0, 100), "schema = 1\n", "\"a table.csv\""};
+    RunIdentity identity{"a program", "fused", range(0, 100), "schema = 1\n", {{"study.table", "\"a table.csv\""}, {"load.gas.table", "\"p = 1.csv\""}}};
     write_identity(shards_, identity);
     for (std::string const name : {"run.toml", "run-copy.toml"}) {
         std::string const whole = testing::bytes_of(file(name));
@@ -103,7 +103,7 @@ TEST_F(Shards, KeepTheirIdentityWhicheverBitOfEitherFileChanges) {
             testing::put(file(name), changed);
             ShardFolder const folder = open();
             EXPECT_EQ(folder.identity().difference(identity), "") << bit;
-            EXPECT_EQ(folder.identity().table, identity.table) << bit;
+            EXPECT_EQ(folder.identity().tables, identity.tables) << bit;
             EXPECT_EQ(folder.damaged_identity(), file(name)) << bit;
         }
         open().mend();
