@@ -12,7 +12,7 @@ struct UnitSlider {
     RigidSliderParameters<double> p = RigidFreeSlider::parameters(inputs());
     std::array<double, 12> state{};
     Faults<double> faults = Faults<double>::none();
-    NoDrive::At<double> guide{0.0, state.data(), p, faults};
+    NoDrive::At<double> guide{0.0, state.data(), p, DrivePlan{}, faults};
     JointPairs<double> at{guide.centre(p), guide.x, guide.vx, state.data(), p, false};
 
     static Inputs inputs() {

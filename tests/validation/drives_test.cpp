@@ -75,6 +75,37 @@ TEST(Drives, MotorRunsAYokeUpAsItsEnergySays) {
     }
 }
 
+TEST(Drives, CrossAnAngleOnceATurn) {
+    // The same yoke: it is at 90° + 360° k when the quadrature says, running up from rest.
+    Inputs in = afloat();
+    in.crank_speed = 0;
+    double const slider = complete_inputs(in).slider_mass * in.crank_length * in.crank_length;
+    in.drive_inertia = 2 * slider, in.drive_torque = 40 * in.drive_inertia;
+    in = complete_inputs(in);
+    auto const o = options(Mechanism::scotch_yoke_motor, {.by = DriveBy::torque}, 1.5, 1e-11);
+    constexpr std::size_t room = 20, width = 13;
+    double sections[room * width];
+    MemberRecord record;
+    MemberClock const clock{1.5, 0, 0};
+    Block block;
+    block.inputs = &in, block.members = 1, block.records = &record, block.settings = o.settings, block.clocks = &clock;
+    block.crossings = {.on = CrossingPlan::On::state, .direction = CrossingPlan::Direction::rising, .turns = true, .index = 10, .level = pi / 2, .room = room};
+    block.section_values = sections;
+    double state[12];
+    block.final_states = state;
+    find_instance(best_isa(), o.parts).run(block);
+    ASSERT_EQ(record.status, Status::finished);
+    ASSERT_EQ(record.crossings, static_cast<std::uint64_t>(std::floor((state[10] - pi / 2) / (2 * pi))) + 1);
+    EXPECT_GT(record.crossings, 4u);
+    auto const inertia = [&](double angle) { return in.drive_inertia + slider * std::sin(angle) * std::sin(angle); };
+    for (std::size_t k = 0; k < record.crossings; ++k) {
+        double const angle = pi / 2 + 2 * pi * static_cast<double>(k);
+        double const time = integral([&](double u) { return 2 * std::sqrt(inertia(u * u) / (2 * in.drive_torque)); }, std::sqrt(angle));
+        EXPECT_NEAR(sections[k * width], time, 1e-8) << k;
+        EXPECT_NEAR(sections[k * width + 11], angle, 1e-9) << k;
+    }
+}
+
 TEST(Drives, MotorWhoseTorqueFallsComesToItsSpeed) {
     // J θ'' = T0 (1 − θ'/ω0) − c θ', of a flywheel beside which the slider is nothing: θ' = ω1 (1 − exp(−t/τ)).
     Inputs in = afloat();

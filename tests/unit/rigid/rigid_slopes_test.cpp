@@ -79,7 +79,7 @@ std::array<Real, 6> motion_after(Collision const& of, State const& direction, in
     Real s[size];
     for (std::size_t i = 0; i < size; ++i) s[i] = number<Real>(of.state[i], direction[i]);
     auto faults = Faults<Real>::none();
-    NoDrive::At<Real> const guide(Real(0.0), s, p, faults);
+    NoDrive::At<Real> const guide(Real(0.0), s, p, DrivePlan{}, faults);
     JointPairs<Real> const at(guide.centre(p), guide.x, guide.vx, s, p, false);
     Mask<Real> near[pair_count];
     for (auto& each : near) each = false;
