@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'435u);
+    EXPECT_LE(Layer("kernels").lines(), 17'437u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'062u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'615u);
-    EXPECT_LE(Layer("host").lines(), 29'977u);
+    EXPECT_LE(Layer("host").lines(), 29'979u);
     EXPECT_LE(Layer("host/store").lines(), 4'187u);
 }
 
