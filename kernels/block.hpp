@@ -167,7 +167,7 @@ struct ProbeResult {
 
 struct ProbeTable {
     Inputs const* inputs = nullptr;  // [rows]; the initial state is the state to probe
-    double const* times = nullptr;   // [rows]
+    double const* times = nullptr;   // [rows], of the states [s]
     std::size_t rows = 0;
     ProbeResult* results = nullptr;  // [rows]
 };

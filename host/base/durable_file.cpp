@@ -54,18 +54,6 @@ void sync_folder_for(std::string const& folder, std::string const& path) {
     if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "write to the disk", errno);
 }
 
-void write_file(std::string const& path, int flags, std::span<std::byte const> bytes) {
-    OpenFile file(path, O_WRONLY | O_CREAT | flags);
-    try {
-        write_all(file.get(), bytes, path);
-        sync(file.get(), path);
-        file.close();
-    } catch (...) {
-        ::unlink(path.c_str());
-        throw;
-    }
-}
-
 }  // namespace
 
 std::string folder_of(std::string const& path) {
@@ -77,11 +65,25 @@ void sync_folder(std::string const& path) { sync_folder_for(path, path); }
 
 void sync_name(std::string const& path) { sync_folder_for(folder_of(path), path); }
 
-void write_new(std::string const& path, std::span<std::byte const> bytes) { write_file(path, O_EXCL, bytes); }
+NewFile::NewFile(std::string const& path, bool truncates) : file_(path, O_WRONLY | O_CREAT | (truncates ? O_TRUNC : O_EXCL)) {}
+
+NewFile::~NewFile() {
+    if (!finished_) ::unlink(file_.path().c_str());
+}
+
+void NewFile::append(std::span<std::byte const> bytes) { write_all(file_.get(), bytes, file_.path()); }
+
+void NewFile::finish() {
+    sync(file_.get(), file_.path());
+    file_.close();
+    finished_ = true;
+}
 
 void write_durably(std::string const& path, std::span<std::byte const> bytes) {
     std::string const temporary = path + ".tmp";
-    write_file(temporary, O_TRUNC, bytes);
+    NewFile file(temporary, true);
+    file.append(bytes);
+    file.finish();
     if (std::rename(temporary.c_str(), path.c_str()) != 0) {
         int const reason = errno;
         ::unlink(temporary.c_str());

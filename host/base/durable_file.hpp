@@ -24,8 +24,20 @@ enum class Existing {
 void write_durably(std::string const& path, std::span<std::byte const> bytes);
 void write_durably(std::string const& path, std::string_view text);
 
-/// A new file, on the disk when it returns.  @throws FileError, also if there is one of this name; it is gone then, if it was this call's
-void write_new(std::string const& path, std::span<std::byte const> bytes);
+/// A new file that is written piece by piece, and gone again unless `finish` has put it on the disk.
+class NewFile {
+public:
+    /// @param truncates one of this name that is there, which else is refused  @throws FileError
+    explicit NewFile(std::string const& path, bool truncates = false);
+    ~NewFile();
+    void append(std::span<std::byte const> bytes);
+    void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
+    void finish();
+
+private:
+    OpenFile file_;
+    bool finished_ = false;
+};
 
 /// The last steps for a file that another library wrote: fsync, rename, fsync of the folder.  @throws FileError; `from` then stays.
 void rename_durably(std::string const& from, std::string const& to, Existing existing = Existing::replaced);

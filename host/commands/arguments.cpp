@@ -201,6 +201,26 @@ void add_report(Options& options, ReportArguments& report) {
                  "pip install . in the source tree installs it.");
 }
 
+void add_export(Options& options, ExportArguments& given) {
+    auto const series = std::make_shared<std::optional<std::string>>();
+    options.positional("FILE", given.path, "Result file")->required();
+    options.text("-o,--output", "OUT.csv|OUT.mat", given.output, "Table in CSV, or MAT file of MATLAB, Octave and scipy")->required();
+    options.text("--series", "NAME,...", *series, "Write these time series, or all: a row for each sample of each member");
+    options.flag("--sections", given.sections, "Write the sections of its orbits: a row each");
+    options.force(given.force);
+    options.note("A CSV file holds one table: of the members, unless --series or --sections is given.  A MAT file holds the members in any case.");
+    options.at_end([&given, series] {
+        if (!*series) return;
+        given.series.emplace();
+        if (**series == "all") return;
+        for (std::string_view rest = **series; !rest.empty();) {
+            auto const end = std::min(rest.find(','), rest.size());
+            given.series->emplace_back(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+    });
+}
+
 void add_compile(Options& options, CompileArguments& compile) {
     options.positional("HEADER", compile.header, "Header with a contact law or a mechanism (docs/extending.md)")->required();
     options.text("-o,--output", "DIR", compile.folder, "Folder of the modules, which a scene names in [modules] search (default: one that every scene finds)");
@@ -274,6 +294,9 @@ std::vector<CommandRow> const& command_rows() {
          {{"slideway merge result.nc.shards -o result.nc", "Whatever is finished, to one result file."}}},
         {"report", "Write an HTML page of a result file (uses the Python package)", add<ReportArguments, add_report>,
          {{"slideway report result.nc -o result.html", "A page for a browser."}}},
+        {"export", "Write a result file's members, series or sections to CSV or MAT", add<ExportArguments, add_export>,
+         {{"slideway export result.nc -o members.csv", "A row for each member: status, what varies, quantities."},
+          {"slideway export result.nc -o result.mat --series y,vz", "Members and two time series for MATLAB and Octave."}}},
         {"compile", "Compile a law or mechanism of one's own for scenes", add<CompileArguments, add_compile>,
          {{"slideway compile hunt_crossley.hpp", "Scenes then know contact.law = \"hunt_crossley\"."},
           {"slideway compile own.hpp -o modules", "Into a folder, which scenes name: [modules] search = [\"modules\"]."}}},

@@ -162,6 +162,13 @@ struct ReportArguments {
 /// Becomes the Python package, which writes the page; returns only by an exception.
 int execute(ReportArguments const& arguments);
 
+struct ExportArguments {
+    std::string path, output;
+    std::optional<std::vector<std::string>> series;  // these of the time series; none of them: all
+    bool sections = false, force = false;
+};
+int execute(ExportArguments const& arguments);
+
 struct CompileArguments {
     std::string header;
     std::string folder;       // empty: the user's own
@@ -183,7 +190,7 @@ struct TextOnly {
 int execute(TextOnly const& only);
 
 using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments,
-                               MergeArguments, ReportArguments, CompileArguments, ListArguments, TextOnly>;
+                               MergeArguments, ReportArguments, ExportArguments, CompileArguments, ListArguments, TextOnly>;
 
 /// @throws SceneError with one line for a command line that cannot be used.
 Arguments parse_arguments(int argc, char const* const* argv);

@@ -57,6 +57,10 @@ std::string of_value(std::string const& value, std::string_view left, std::strin
         for (CommandDescription const& command : commands) text += line(command.name, command.summary);
         return text;
     }
+    if (auto const bar = value.find('|'); bar != value.npos && value.starts_with("OUT.")) {
+        std::string const others = of_value(value.substr(bar + 1), left, word, commands);
+        return of_value(value.substr(0, bar), left, word, commands) + others.substr(others.find('\n') + 1);  // folders once
+    }
     auto const dot = value.rfind('.');
     return dot != value.npos && value.find("..") == value.npos ? fmt::format("*/\n*{}\n", value.substr(dot)) : std::string();
 }

@@ -70,8 +70,8 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_contacts(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
-    print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank,
-                                     result.power_friction, result.power_damping));
+    print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping{}", result.power_crank, result.power_friction,
+                                     result.power_damping, table.has_loads ? fmt::format(", {:.10g} W loads", result.power_load) : ""));
     if (selects(has.series, Series::crank_torque)) {
         std::string_view const weight = has.spatial ? "without the crank's own weight" : "the crank's own weight included";
         print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));

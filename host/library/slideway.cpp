@@ -210,7 +210,7 @@ Table Ensemble::probe(std::span<double const> states, std::span<double const> ti
         std::vector<ProbeResult> const results = slideway::probe(table, best_isa(state_->scene.parts));
         Table columns;
         for (ProbeResult const& result : results) {
-            auto const row = result_columns(table.mechanism, result);
+            auto const row = result_columns(table, result);
             if (columns.names.empty()) {
                 for (auto const& [name, value] : row) columns.names.push_back(name);
                 columns.names.emplace_back("status");

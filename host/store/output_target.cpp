@@ -73,10 +73,14 @@ OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : 
                                 name_));
 }
 
-void OutputTarget::write(std::string_view text) const {
+void OutputTarget::write(std::function<void(NewFile& file)> const& content) const {
     // Nobody else's file has this name, and no other process writes it.
     std::string const part = fmt::format("{}.{}.part", path_, ::getpid());
-    write_new(part, std::as_bytes(std::span(text)));
+    {
+        NewFile file(part);
+        content(file);
+        file.finish();
+    }
     try {
         rename_durably(part, path_, existing());
     } catch (...) {

@@ -38,8 +38,11 @@ public:
     /// What becomes of one that has come there since.
     Existing existing() const { return replaces_ ? Existing::replaced : Existing::kept; }
 
-    /// Writes a text, by a file beside it, fsync, rename, fsync of the folder.  @throws FileError; nothing has changed then
-    void write(std::string_view text) const;
+    /// Writes by a file beside it, fsync, rename, fsync of the folder.  @throws FileError; nothing has changed then
+    void write(std::function<void(NewFile& file)> const& content) const;
+    void write(std::string_view text) const {
+        write([&](NewFile& file) { file.append(text); });
+    }
 
 private:
     std::string name_, path_;

@@ -173,7 +173,9 @@ std::string variable_name(std::string_view key) {
 
 ResultColumn parameter_column(std::string_view key, std::string_view unit, std::string_view meaning, double Inputs::*input) {
     auto const of = [input](EndedMember const& member) { return member.block.inputs[member.place].*input; };
-    return of_members(variable_name(key), std::string(unit), std::string(meaning), of);
+    ResultColumn column = of_members(variable_name(key), std::string(unit), std::string(meaning), of);
+    column.attributes = {{"key", std::string(key)}};
+    return column;
 }
 
 std::vector<QuantityColumn> stored_columns(ResultView const& results) {

@@ -58,7 +58,7 @@ QuantityColumn const* column_of(std::vector<QuantityColumn> const& columns, Limi
 
 /// A dotted key as the name of a variable: underscores for dots.
 std::string variable_name(std::string_view key);
-/// The column of a varied input.
+/// The column of a varied input, with its key as the attribute `key`.
 ResultColumn parameter_column(std::string_view key, std::string_view unit, std::string_view meaning, double Inputs::*input);
 
 struct ResultLayout {

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <numeric>
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -24,9 +26,19 @@ namespace slideway {
 
 namespace {
 
-template <class T> std::vector<double> read_as(DataFile const& file, DataFile::Variable const& variable) {
-    std::vector<T> const values = file.read<T>(variable);
-    return {values.begin(), values.end()};
+template <class T> std::vector<double> read_as(DataFile const& file, int variable, std::span<std::size_t const> start, std::vector<std::size_t> const& count) {
+    std::vector<T> values(std::accumulate(count.begin(), count.end(), std::size_t{1}, std::multiplies<>()));
+    if (!values.empty()) file.read(variable, start, count, values.data());
+    if constexpr (std::is_same_v<T, double>) return values;
+    else return {values.begin(), values.end()};
+}
+
+/// A part of a variable of numbers.
+std::vector<double> numbers_of(DataFile const& file, DataFile::Variable const& of, std::span<std::size_t const> start, std::vector<std::size_t> const& count) {
+    if (of.type == DataFile::Type::int8) return read_as<signed char>(file, of.id, start, count);
+    if (of.type == DataFile::Type::int32) return read_as<int>(file, of.id, start, count);
+    if (of.type == DataFile::Type::float64) return read_as<double>(file, of.id, start, count);
+    throw FileError(fmt::format("{}: {} is no number", file.path(), of.name));
 }
 
 /// As text, also a number.
@@ -112,14 +124,22 @@ std::string ResultView::unit(std::string const& variable) const { return file_->
 
 std::string ResultView::long_name(std::string const& variable) const { return file_->text(find(variable).id, "long_name"); }
 
+std::string ResultView::attribute_of(std::string const& variable, std::string const& name) const { return file_->text(find(variable).id, name); }
+
+std::vector<std::string> ResultView::dimensions_of(std::string const& variable) const { return find(variable).dimensions; }
+
 std::vector<std::size_t> ResultView::shape(std::string const& variable) const { return find(variable).shape; }
 
 std::vector<double> ResultView::values(std::string const& variable) const {
     DataFile::Variable const& found = find(variable);
-    if (found.type == DataFile::Type::int8) return read_as<signed char>(*file_, found);
-    if (found.type == DataFile::Type::int32) return read_as<int>(*file_, found);
-    if (found.type == DataFile::Type::float64) return file_->read<double>(found);
-    throw FileError(fmt::format("{}: {} is no number", file_->path(), variable));
+    return numbers_of(*file_, found, std::vector<std::size_t>(found.shape.size(), 0), found.shape);
+}
+
+std::vector<double> ResultView::rows(std::string const& variable, std::size_t first, std::size_t count) const {
+    DataFile::Variable const& found = find(variable);
+    std::vector<std::size_t> start(found.shape.size(), 0), shape = found.shape;
+    start.at(0) = first, shape[0] = count;
+    return numbers_of(*file_, found, start, shape);
 }
 
 std::vector<double> ResultView::values(std::string const& variable, std::size_t count) const {

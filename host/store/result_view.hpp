@@ -30,10 +30,14 @@ public:
     std::vector<std::string> variable_names() const;
     std::string unit(std::string const& variable) const;
     std::string long_name(std::string const& variable) const;
+    std::string attribute_of(std::string const& variable, std::string const& name) const;  // "" when there is none
+    std::vector<std::string> dimensions_of(std::string const& variable) const;
     /// All values in C order.  @throws FileError if there is no such variable or it is not a number.
     std::vector<double> values(std::string const& variable) const;
     /// The same of so many.  @throws FileError also if there are not: the file was edited.
     std::vector<double> values(std::string const& variable, std::size_t count) const;
+    /// Those of `count` entries of its first dimension.
+    std::vector<double> rows(std::string const& variable, std::size_t first, std::size_t count) const;
     /// The texts of a variable of them, one for each entry of its first dimension.  @throws FileError if there is no such variable
     std::vector<std::string> texts(std::string const& variable) const;
     /// Of a float64 variable of one dimension, or of two, its column: the values along the first dimension.

@@ -49,15 +49,14 @@ double is_met(Limit const& limit, double value) { return value >= limit.low && v
 
 /// Surfaces, lines and points that touch in states; NaN where one cannot be evaluated.
 /// @param inputs of the members, by value: they start where they ended  @param states [members][states of the mechanism]
-std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> inputs, std::vector<double> times,
+std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> inputs, std::vector<double> const& times,
                                       std::span<double const> states) {
-    Mechanism const mechanism = scene.parts.mechanism;
-    auto const width = static_cast<std::size_t>(info(mechanism).states);
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    auto const width = static_cast<std::size_t>(mechanism.states);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         StateNumbers state{};
         std::copy_n(states.data() + i * width, width, state.begin());
-        set_start(info(mechanism), state, inputs[i]);
-        times[i] = time_of_start(info(mechanism), times[i]);
+        set_start(mechanism, state, inputs[i]);
     }
     std::vector<EndContacts> contacts;
     for (ProbeResult const& r : probe(best_isa(scene.parts), scene.parts, inputs, times)) {

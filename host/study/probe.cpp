@@ -32,7 +32,7 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
             if (!(table.parts[row] == parts)) continue;
             rows.push_back(row);
             inputs.push_back(table.inputs[row]);
-            times.push_back(time_of_start(info(parts.mechanism), table.times[row]));
+            times.push_back(table.times[row]);
         }
         std::vector<ProbeResult> const group = probe(isa, parts, inputs, times);
         for (std::size_t i = 0; i < rows.size(); ++i) results[rows[i]] = group[i];
@@ -40,8 +40,8 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
     return results;
 }
 
-std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, ProbeResult const& result) {
-    MechanismInfo const& has = info(mechanism);
+std::vector<std::pair<std::string, double>> result_columns(StateTable const& table, ProbeResult const& result) {
+    MechanismInfo const& has = info(table.mechanism);
     std::vector<std::pair<std::string, double>> columns;
     columns.reserve(static_cast<std::size_t>(has.states));
     for (int i = 0; i < has.states; ++i) {
@@ -50,6 +50,7 @@ std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, 
     columns.emplace_back("power_crank", result.power_crank);
     columns.emplace_back("power_friction", result.power_friction);
     columns.emplace_back("power_damping", result.power_damping);
+    if (table.has_loads) columns.emplace_back("power_load", result.power_load);
     int const places = has.spatial ? 8 : 4;
     auto const add_places = [&](std::string_view prefix, double const(&values)[8]) {
         for (int i = 0; i < places; ++i) columns.emplace_back(fmt::format("{}{}", prefix, i + 1), values[i]);
@@ -79,7 +80,7 @@ void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<Pro
     line += 't';
     MechanismInfo const& has = info(table.mechanism);
     for (int i = 0; i < has.states; ++i) line += fmt::format(",{}", state_info(has, i).name);
-    for (auto const& [name, value] : result_columns(table.mechanism, {})) line += ',' + name;
+    for (auto const& [name, value] : result_columns(table, {})) line += ',' + name;
     out << line << ",status\n";
     for (std::size_t row = 0; row < table.rows(); ++row) {
         line.clear();
@@ -87,7 +88,7 @@ void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<Pro
         line += fmt::format("{:.17g}", table.times[row]);
         StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
         for (int i = 0; i < has.states; ++i) line += fmt::format(",{:.17g}", state[static_cast<std::size_t>(i)]);
-        for (auto const& [name, value] : result_columns(table.mechanism, results[row]))
+        for (auto const& [name, value] : result_columns(table, results[row]))
             line += fmt::format(",{:.17g}", value);
         out << line << ',' << name_of(results[row].status) << '\n';
     }

@@ -20,10 +20,10 @@ std::vector<ProbeResult> probe(Isa isa, Parts const& parts, std::vector<Inputs> 
 /// One result per row.
 std::vector<ProbeResult> probe(StateTable const& table, Isa isa);
 
-/// The result columns of tests/golden/rhs_*.csv, in their order, and signals: the derivatives d_*, powers, penetrations, normal
-/// forces, mode triple, energies, the crank torque of a mechanism that has a crank, its own signals.  Of the planar mechanism
-/// penetrations and forces are those of its corners, pen_C1 … fn_C4.
-std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, ProbeResult const& result);
+/// The result columns of tests/golden/rhs_*.csv, in their order, and signals: the derivatives d_*, powers (that of loads where the scene has
+/// some), penetrations, normal forces, mode triple, energies, the crank torque of a mechanism that has a crank, its own signals.  Of the planar
+/// mechanism penetrations and forces are those of its corners, pen_C1 … fn_C4.
+std::vector<std::pair<std::string, double>> result_columns(StateTable const& table, ProbeResult const& result);
 
 /// The table's parameters, t, the states, the result columns and the status; numbers with 17 digits.
 void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<ProbeResult> const& results);

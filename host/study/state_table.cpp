@@ -228,6 +228,7 @@ StateTable empty_table(Scene const& scene) {
     }
     StateTable table;
     table.mechanism = scene.parts.mechanism;
+    table.has_loads = scene.parts.loads.count > 0;
     return table;
 }
 

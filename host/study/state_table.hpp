@@ -12,6 +12,7 @@ namespace slideway {
 
 struct StateTable {
     Mechanism mechanism{};          // of all rows
+    bool has_loads = false;         // the scene
     std::vector<std::string> parameter_names;               // dotted keys, in the order of the input
     std::vector<std::vector<std::string>> parameter_texts;  // [row][parameter], as they are to be printed
     std::vector<Inputs> inputs;                             // [rows], complete; the initial state is the one to probe

@@ -37,7 +37,7 @@ template <class Real> struct PlanarLinks {
         w2 = s[4];
         given = motion.acceleration;
         Real const angle = motion.place;
-        motor = turns_freely ? motor_torque(drive, p.motor, t, angle, w1) : Real(0.0);
+        motor = turns_freely ? motor_torque(drive, p.motor, t + p.start_time, angle, w1) : Real(0.0);
         crank = sincos(angle);
         rod = sincos(s[1]);
         x1 = p.crank_length * crank.cos;
@@ -48,7 +48,7 @@ template <class Real> struct PlanarLinks {
         vx = negated(fma(y1, w1, y2 * w2));
         vy = fma(x1, w1, x2 * w2);
         loads = PlanarLoads<Real>::none();
-        if (list.count > 0) loads = PlanarLoads<Real>::of(list, {angle, t, x1 + x2, vx, w1}, vy, s[2], s[5], p);
+        if (list.count > 0) loads = PlanarLoads<Real>::of(list, {angle, t + p.start_time, x1 + x2, vx, w1}, vy, s[2], s[5], p);
     }
 
     /// M(θ) θ'' = R: inertia of the links, gravity, loads, and the force of contacts on their common end.

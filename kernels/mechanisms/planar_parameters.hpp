@@ -16,6 +16,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> struct PlanarParameters {
     Real crank_length, rod_length;  // l1, l2 [m]
     Real crank_speed, start_angle;  // of a driven crank [rad/s], [rad]
+    Real start_time;                // of the start, for loads over time; not 0 where a state is probed [s]
     // mass matrix of (θ1, θ2): [m11, m12 cos(θ1−θ2); ·, m22] [kg m²]
     Real m11, m22, m12;
     Real slider_inertia;            // J3 [kg m²]
@@ -42,6 +43,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.rod_length = l2;
     p.crank_speed = in.crank_speed;
     p.start_angle = in.start_angle;
+    p.start_time = 0;
     p.m11 = in.crank_inertia + (0.25 * m1 + m2 + m3) * l1 * l1 + in.drive_inertia;
     p.m22 = in.rod_inertia + (0.25 * m2 + m3) * l2 * l2;
     p.m12 = (0.5 * m2 + m3) * l1 * l2;

@@ -52,11 +52,15 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
         Real t, state[size], rates[size];
         for (int i = 0; i < width; ++i) {
             std::size_t const row = first + i < table.rows ? first + i : table.rows - 1;
-            load_lane(p, i, model.parameters(table.inputs[row]));
+            auto of_row = model.parameters(table.inputs[row]);
+            // A planar state has the crank's angle at t for its start, and a drive would turn on by ω t: loads alone hear of t.
+            constexpr bool at_start = requires { of_row.start_time; };
+            if constexpr (at_start) of_row.start_time = table.times[row];
+            set_lane(t, i, at_start ? 0 : table.times[row]);
+            load_lane(p, i, of_row);
             double start[size];
             Model::initial_state(table.inputs[row], start);
             for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);
-            set_lane(t, i, table.times[row]);
         }
         auto const faults = model.template derivative<true>(t, state, p, memory, rates, &report);
         for (int i = 0; i < width && first + i < table.rows; ++i) {

@@ -64,8 +64,4 @@ static inline void set_start(MechanismInfo const& mechanism, StateNumbers const&
     in.vy = in.crank_length * std::cos(crank) * state[3] + in.rod_length * std::cos(rod) * state[4];
 }
 
-/// The time at which a member that starts in the state of a time t is to be evaluated: a planar one has the crank's angle at t for its
-/// start_angle, and its drive would turn on by ω t.
-static inline double time_of_start(MechanismInfo const& mechanism, double t) { return mechanism.spatial ? t : 0; }
-
 }  // namespace slideway

@@ -27,6 +27,7 @@ from .runs import info, run
 from .scenes import scene
 from .sections import sections
 from .series_statistics import SeriesStatistics, stats
+from .tables import members_table, series
 
 if TYPE_CHECKING:
     from . import plot, report
@@ -55,6 +56,7 @@ __all__ = [
     "groups",
     "info",
     "keys",
+    "members_table",
     "merge",
     "open",
     "plot",
@@ -64,6 +66,7 @@ __all__ = [
     "run_part",
     "scene",
     "sections",
+    "series",
     "stats",
     "statuses",
     "tree",

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import weakref
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from . import members, results
+from . import members, results, tables
 from . import scenes as scenes_
 from . import sections as sections_
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @xr.register_dataset_accessor("slideway")  # type: ignore[no-untyped-call, unused-ignore]
@@ -124,3 +127,19 @@ class ResultAccessor:
         40
         """
         return sections_.sections(self._result, member)
+
+    def members_table(self) -> pd.DataFrame:
+        """See :func:`slideway.members_table`.
+
+        >>> slideway.example().slideway.members_table().index.name
+        'member'
+        """
+        return tables.members_table(self._result)
+
+    def series(self, *names: str) -> pd.DataFrame:
+        """See :func:`slideway.series`.
+
+        >>> slideway.open(example_file).slideway.series("y").index.names
+        FrozenList(['member', 'time'])
+        """
+        return tables.series(self._result, *names)

@@ -63,7 +63,7 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/json.md", "docs/report.md", "docs/rigid.md", "docs/tolerance.md"]
+PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/json.md", "docs/report.md", "docs/results.md", "docs/rigid.md", "docs/tolerance.md"]
 
 
 @pytest.fixture
@@ -86,10 +86,12 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
 
 @pytest.mark.parametrize("document", ["README.md", *slow(*PAGES)])
 def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> None:
-    if document in ("docs/chaos.md", "docs/report.md"):  # which begin with a result that is there
+    if document in ("docs/chaos.md", "docs/report.md", "docs/results.md"):  # which begin with a result that is there
         subprocess.run([program, "run", "scenes/planar_rigid.toml", "--set", "study.members=4", "--set", "study.duration=1 s", "--set", "study.samples=4001",
                         "--quiet", "-o", "out.nc"], cwd=shell, check=True)  # fmt: skip
         (shell / "measured.csv").write_text("".join(f"{k},{(k * 7919) % 1000}\n" for k in range(4000)), encoding="utf-8")
+    if document == "docs/results.md":
+        assert run("slideway run scenes/poincare_0.1mm.toml -o orbits.nc", shell).returncode == 0
     lines = commands(document)
     assert lines
     for line in lines:

@@ -56,7 +56,7 @@ LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, M
     for (int i = 0; i < parts.loads.count; ++i) {
         slideway::Load const& load = parts.loads.loads[i];
         Real factor = load.scale < 0 ? Real(1) : number(load.scale);
-        if (load.over != slideway::LoadArgument::nothing) factor *= table_motion(load.table, argument_of(load.over, place));
+        if (load.over != slideway::LoadArgument::nothing) factor *= table_motion(load.table, argument_of(load.over, place)).value;
         Vector3 force = factor * vector(load.force), torque = factor * vector(load.torque);
         if (load.turns_with_slider) force = attitude * force, torque = attitude * torque;
         Vector4 const point = (Vector4() << vector(load.point), 1).finished();

@@ -37,10 +37,10 @@ PartsCase const parts_cases[] = {
      {Law::conservative, Damping::restitution, true, true, Mechanism::carriage}},
     {"free_slider_conservative_rate_friction", {Law::conservative, Damping::rate, true, false, Mechanism::free_slider}},
     {"free_slider_paper_restitution_way", {Law::paper, Damping::restitution, true, true, Mechanism::free_slider}},
-    {"planar_point_friction", {Law::paper, Damping::point, true, false, Mechanism::planar_slider_crank, false}},
+    {"planar_point_friction", {Law::paper, Damping::point, true, false, Mechanism::planar_slider_crank}},
     {"planar_restitution_driven",
-     {Law::paper, Damping::restitution, true, false, Mechanism::planar_slider_crank, false}},
-    {"planar_restitution_free", {Law::paper, Damping::restitution, true, false, Mechanism::planar_slider_crank, true}},
+     {Law::paper, Damping::restitution, true, false, Mechanism::planar_slider_crank}},
+    {"planar_restitution_free", {Law::paper, Damping::restitution, true, false, Mechanism::planar_slider_crank, {.by = DriveBy::nothing}}},
 };
 
 testing::RunOptions engine_options(Parts const& parts) {

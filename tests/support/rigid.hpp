@@ -16,7 +16,7 @@ inline Parts rigid_planar_parts(bool friction, bool free_crank) {
     parts.mechanism = Mechanism::planar_slider_crank;
     parts.damping = Damping::restitution;
     parts.friction = friction;
-    parts.drive.by = free_crank ? DriveBy::nothing : DriveBy::speed;
+    parts.drive.by = free_crank ? slideway::DriveBy::nothing : slideway::DriveBy::speed;
     parts.rigid = true;
     return parts;
 }

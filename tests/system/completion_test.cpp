@@ -49,6 +49,8 @@ TEST_F(Completion, OfBashKnowsCommandsOptionsAndValues) {
     EXPECT_EQ(in_bash({"slideway", "run", "--isa", "=", "sc"}), "scalar\n") << "bash breaks words at =";
     EXPECT_EQ(in_bash({"slideway", "run", "--threads", ""}), "\n") << "a number";
     EXPECT_EQ(in_bash({"slideway", "help", "pro"}), "probe\n");
+    for (char const* const name : {"o.csv", "o.mat", "o.nc"}) write(name, "");
+    EXPECT_EQ(in_bash({"slideway", "export", "-o", "o"}), "o.csv\no.mat\n");
     EXPECT_EQ(in_bash({"slideway", "help", "--completion", "z"}), "zsh\n");
 }
 

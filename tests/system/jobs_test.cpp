@@ -1,10 +1,12 @@
 // The jobs of examples/jobs: each runs, and comes to what can be known without it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -83,6 +85,49 @@ TEST(Jobs, CarriageFollowsItsProfile) {
                  impacts = mean_of("carriage.toml", few, "damping_loss"), kept = mean_of("carriage.toml", few, "energy_change");
     EXPECT_GT(given, 0);
     EXPECT_NEAR(given, friction + impacts + kept, 1e-4 * given);
+}
+
+/// Cells of a row of a table without commas in its cells.
+std::vector<std::string> cells_of(std::string const& row) {
+    std::vector<std::string> cells;
+    std::istringstream in(row);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    return cells;
+}
+
+TEST(Jobs, ExportHasTheNumbersOfTheResult) {
+    auto const folder = std::filesystem::temp_directory_path() / ("slideway_export_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::string const programs = std::filesystem::path(SLIDEWAY_BINARY).parent_path().string();
+    auto const run = testing::run_shell(folder, "PATH='" + programs + "':\"$PATH\" sh '" + jobs + "export.sh' --quiet --set study.members=8 study.verify=0");
+    ASSERT_EQ(run.code, 0) << run.err;
+    ResultReader const results((folder / "pump.nc").string());
+    std::vector<double> const works = results.values("load_work"), heights = results.values("y");
+
+    std::ifstream members(folder / "pump_members.csv"), series(folder / "pump_series.csv"), mat(folder / "pump.mat", std::ios::binary);
+    std::string row;
+    std::getline(members, row);
+    auto const header = cells_of(row);
+    auto const place = static_cast<std::size_t>(std::ranges::find(header, "load_work [J]") - header.begin());
+    ASSERT_LT(place, header.size()) << row;
+    EXPECT_NE(row.find(",load.plunger.scale,"), row.npos) << row;
+    for (double const work : works) {
+        ASSERT_TRUE(std::getline(members, row));
+        EXPECT_EQ(std::stod(cells_of(row).at(place)), work);
+    }
+    EXPECT_FALSE(std::getline(members, row));
+    std::getline(series, row);
+    EXPECT_EQ(row, "member,time [s],y [m],vy [m s-1]");
+    for (double const height : heights) {
+        ASSERT_TRUE(std::getline(series, row));
+        EXPECT_EQ(std::stod(cells_of(row).at(2)), height);
+    }
+    EXPECT_EQ(heights.size(), 8u * 501u);
+    std::string title(6, ' ');
+    mat.read(title.data(), 6);
+    EXPECT_EQ(title, "MATLAB");
+    EXPECT_GT(std::filesystem::file_size(folder / "pump.mat"), 2 * 8 * heights.size());
+    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ std::vector<Command> const commands{
     {"states", {"probe", "s.toml", "--csv", "states.csv"}, ".csv", {"s.toml", "states.csv"}},
     {"stats", {"stats", "series.nc", "--member", "0"}, ".csv", {"series.nc"}},
     {"column", {"stats", "series.csv", "--dt", "0.01"}, ".csv", {"series.csv"}},
+    {"export", {"export", "series.nc"}, ".csv", {"series.nc"}},
+    {"mat", {"export", "series.nc", "--series", "all"}, ".mat", {"series.nc"}},
     {"merge", {"merge", "parts.nc.shards"}, ".nc", {}},
 };
 
@@ -222,7 +224,7 @@ TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
 TEST_F(OutputTargets, LeaveForeignFilesUnderTheNamesOfPartsAlone) {
     for (std::string const& name : {std::string("o.nc.part.lock"), std::string("o.nc.part")}) {
         write(name, "precious");
-        for (std::size_t i : {0u, 2u, 7u}) expect_untouched(commands[i], "o.nc");
+        for (std::size_t i : {0u, 2u, 9u}) expect_untouched(commands[i], "o.nc");
         fs::remove(path(name));
         fs::copy_file(path("s.toml"), path(name));  // the scene itself
         auto const before = files();

@@ -90,6 +90,38 @@ TEST_F(Probe, OfASceneShowsItsStart) {
     EXPECT_NEAR(start.number(0, "pen_z_P3"), -0.9e-4, 1e-16);
 }
 
+/// What a load over time comes to, at the time of the state: between its rows a torque of 0.1 N m/s · t turns a slider that touches nothing.
+TEST_F(Probe, OfLoadsIsAtTheTimeOfTheState) {
+    write("torque.csv", "time,torque\n0,0\n10,1\n");
+    std::string const load = "[load.twist]\ntable = \"torque.csv\"\nover = \"time\"\ncolumn = \"torque\"\ninterpolation = \"linear\"\ntorque_z = 1\n";
+    write("spatial.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[mechanism]\nslider_inertia_z = 2e-5\n" + load);
+    write("planar.toml", "schema = 1\n[mechanism]\nkind = \"planar_slider_crank\"\nslider_inertia_z = 2e-5\n" + load);
+    write("spatial.csv", "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz\n2,0,0,0,0,0,0,0,0,0,3\n7,0,0,0,0,0,0,0,0,0,3\n");
+    std::string const planar = "t,crank_angle,rod_angle,pitch,crank_angular_velocity,rod_angular_velocity,wz\n2,0,0,0,3,-1,3\n7,0,0,0,3,-1,3\n";
+    write("planar.csv", planar);
+    for (std::string const& scene : {std::string("spatial"), std::string("planar")}) {
+        for (std::string const& crank : {std::string("driven"), std::string("free")}) {
+            std::vector<std::string> words{"probe", scene + ".toml", "--csv", scene + ".csv", "-o", "o.csv", "--force"};
+            if (crank == "free" && scene == "spatial") continue;
+            if (crank == "free") words.insert(words.end(), {"--set", "mechanism.crank=free"});
+            Outcome const outcome = run(words);
+            ASSERT_EQ(outcome.code, 0) << outcome.err;
+            auto const table = golden::Table::read(path("o.csv"));
+            for (std::size_t row : {0u, 1u}) {
+                double const torque = 0.1 * table.number(row, "t");
+                EXPECT_NEAR(table.number(row, "d_wz"), torque / 2e-5, 1e-8) << scene << ", " << crank;
+                EXPECT_NEAR(table.number(row, "power_load"), 3 * torque, 1e-12) << scene << ", " << crank;
+            }
+            std::string const name = scene == "planar" ? "crank_angle" : "y";
+            EXPECT_EQ(table.number(0, name), 0);
+            EXPECT_EQ(table.number(1, "d_" + name), scene == "planar" ? 3 : 0);
+        }
+    }
+    Outcome const listing = run({"probe", "spatial.toml"});
+    EXPECT_NE(listing.out.find("W damping, 0 W loads"), std::string::npos) << listing.out;
+    EXPECT_EQ(run({"probe", "s.toml"}).out.find("W loads"), std::string::npos);
+}
+
 TEST_F(Probe, NamesTheCellThatIsWrong) {
     std::string const header = "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz\n";
     write("cell.csv", header + "0,0,0,0,0,0,0,0,0,0,abc\n");

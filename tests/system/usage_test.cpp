@@ -26,7 +26,7 @@ TEST_F(Usage, OfCommands) {
     expect_refusal(2, "did you mean --resume?", {"run", "s.toml", "--resum"});
     expect_refusal(2, "did you mean --threads?", {"check", "s.toml", "--thread=2"});
     expect_refusal(2, "see slideway help info", {"info", "s.nc", "--frobnicate"});
-    for (char const* const command : {"run", "check", "probe", "info", "stats", "merge", "report", "list"}) {
+    for (char const* const command : {"run", "check", "probe", "info", "stats", "merge", "report", "export", "list"}) {
         Outcome const help = run({"help", command});
         EXPECT_EQ(help.code, 0) << command;
         EXPECT_EQ(help.out, run({command, "--help"}).out);

@@ -30,7 +30,7 @@ Inputs rig(double inclination, double speed = 0.06) {
 
 testing::RunOptions options(Law law, Damping damping, bool friction, double seconds) {
     testing::RunOptions o;
-    o.parts = {law, damping, friction, false, Mechanism::carriage, false};
+    o.parts = {law, damping, friction, false, Mechanism::carriage};
     o.settings.rtol = o.settings.atol = 1e-8;
     o.settings.end_time = seconds;
     return o;

@@ -13,7 +13,7 @@ namespace {
 
 testing::RunOptions options(Law law, Damping damping, bool friction, double seconds) {
     testing::RunOptions o;
-    o.parts = {law, damping, friction, false, Mechanism::free_slider, false};
+    o.parts = {law, damping, friction, false, Mechanism::free_slider};
     o.settings.rtol = o.settings.atol = 1e-9;
     o.settings.end_time = seconds;
     return o;

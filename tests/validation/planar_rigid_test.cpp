@@ -69,7 +69,7 @@ TEST(RigidPlanarCrank, IsTheLimitOfAStiffCompliantBlock) {
     slideway::Parts parts;
     parts.mechanism = slideway::Mechanism::planar_slider_crank;
     parts.damping = slideway::Damping::restitution;
-    parts.drive.by = DriveBy::nothing;
+    parts.drive.by = slideway::DriveBy::nothing;
     auto const worst = farthest(oracle::rigid_run(in, 1e-3L, 200).samples,
                                 oracle::compliant_run(in, parts, 1e-3L, 200, {.near_wall = 8e-7L, .in_flight = 4e-6L}));
     // model.md 7

@@ -18,7 +18,7 @@ constexpr std::size_t milliseconds = 200;
 
 testing::RunOptions options(bool friction, bool free_crank, double seconds) {
     testing::RunOptions o;
-    o.parts = {Law::conservative, Damping::restitution, friction, false, Mechanism::planar_slider_crank, {.by = free_crank ? DriveBy::nothing : DriveBy::speed}};
+    o.parts = {Law::conservative, Damping::restitution, friction, false, Mechanism::planar_slider_crank, {.by = free_crank ? slideway::DriveBy::nothing : slideway::DriveBy::speed}};
     o.settings.rtol = o.settings.atol = 1e-9;
     o.settings.max_step = 1e-4;
     o.settings.end_time = seconds;

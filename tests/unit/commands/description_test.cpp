@@ -28,7 +28,7 @@ bool has(std::string const& text, std::string const& part) { return text.find(pa
 
 TEST(CommandLine, HasItsCommandsAndOptionsInTheManPage) {
     auto const commands = command_descriptions();
-    ASSERT_EQ(commands.size(), 10u);
+    ASSERT_EQ(commands.size(), 11u);
     std::string const page = man_page(commands);
     for (CommandDescription const& command : commands) {
         std::string const section = part_of(page, "\n.SS slideway " + command.name + " ", "\n.S");

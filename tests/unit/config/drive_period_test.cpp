@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 Parts parts_of(Mechanism mechanism, bool free_crank = false) {
     Parts parts;
     parts.mechanism = mechanism;
-    parts.drive.by = free_crank ? DriveBy::nothing : DriveBy::speed;
+    parts.drive.by = free_crank ? slideway::DriveBy::nothing : slideway::DriveBy::speed;
     return parts;
 }
 

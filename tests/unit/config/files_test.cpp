@@ -296,7 +296,7 @@ TEST(SceneFiles, ThePlanarMechanismIsTheBenchmarks) {
     Scene const scene = read_scene(path_of("planar_flores.toml"));
     Inputs const& in = scene.inputs;
     Parts parts;
-    parts.mechanism = Mechanism::planar_slider_crank, parts.damping = Damping::restitution, parts.drive.by = DriveBy::nothing;
+    parts.mechanism = Mechanism::planar_slider_crank, parts.damping = Damping::restitution, parts.drive.by = slideway::DriveBy::nothing;
     EXPECT_EQ(scene.parts, parts);
     double const given[] = {in.crank_length,    in.rod_length,  in.slider_length, in.slider_height,
                             in.clearance_y,     in.crank_mass,  in.rod_mass,      in.slider_mass,

@@ -44,7 +44,7 @@ TEST(Objections, AreToKeys) {
 
 TEST(Objections, AreToSignalsThatSayTooLittle) {
     auto const with = [](Signal const& signal) {
-        MechanismInfo info = slideway::info(Mechanism::slider_crank);
+        MechanismInfo info = slideway::info(Mechanism{});
         info.name = "own_crank";
         info.on_cards = false;
         info.signals = {&signal, 1};

@@ -66,8 +66,8 @@ void compare_planar_probe(Isa isa, oracle::PlanarCase const& c, std::string cons
     // The probe's impact speeds are their start value.
     Inputs const& in = c.inputs;
     auto const start = oracle::planar_start(in);
-    auto const r = oracle::PlanarMechanism(in, c.parts).at(start);
-    double const now = 0;  // a driven crank is at its start angle, which the state of the inputs has
+    double const now = 2.1;  // which loads alone hear of: the crank is at the angle of the state
+    auto const r = oracle::PlanarMechanism(in, c.parts).at(start, nullptr, 0, now);
     ProbeResult p;
     find_instance(isa, c.parts).probe({&in, &now, 1, &p});
     EXPECT_EQ(p.status, Status::finished) << what;

@@ -32,7 +32,7 @@ using Real = long double;
 
 constexpr std::uint64_t seed = 2010;
 constexpr Parts driven{.mechanism = Mechanism::planar_slider_crank};
-constexpr Parts released{.mechanism = Mechanism::planar_slider_crank, .drive = {.by = DriveBy::nothing}};
+constexpr Parts released{.mechanism = Mechanism::planar_slider_crank, .drive = {.by = slideway::DriveBy::nothing}};
 
 double number(Real x) { return static_cast<double>(x); }
 
@@ -124,10 +124,10 @@ TEST(OraclePlanar, StartsWhereTheInputsPutTheBlock) {
 TEST(OraclePlanar, MovesAFreeCrankByTheTorqueOfADriveAsTheDriveDoes) {
     for (PlanarCase const& c : oracle::make_planar_cases(seed + 3, 240)) {
         Parts parts = c.parts;
-        parts.drive.by = DriveBy::speed;
+        parts.drive.by = slideway::DriveBy::speed;
         PlanarState const state = oracle::planar_start(c.inputs);
         PlanarResult const held = PlanarMechanism(c.inputs, parts).at(state, &c.impact_speeds);
-        parts.drive.by = DriveBy::nothing;
+        parts.drive.by = slideway::DriveBy::nothing;
         PlanarMechanism const loose(c.inputs, parts);
         PlanarResult const pushed = loose.at(state, &c.impact_speeds, held.drive_torque);
         EXPECT_EQ(held.derivative[3], 0);

@@ -349,7 +349,7 @@ TEST(ShadowDirections, OfFewerStatesHaveTheSameNumbersInAnotherOrder) {
     std::vector<double> six(12), twelve(12);
     Parts planar, free;
     planar.mechanism = Mechanism::planar_slider_crank;
-    planar.drive.by = DriveBy::nothing;
+    planar.drive.by = slideway::DriveBy::nothing;
     free.mechanism = Mechanism::free_slider;
     draw_directions(3, 8, 2, planar, six.data());
     draw_directions(3, 8, 1, free, twelve.data());
@@ -370,7 +370,7 @@ TEST(ShadowDirections, LeaveOutWhatADrivePrescribes) {
         EXPECT_NEAR(squares, 1, 1e-14);
     }
     EXPECT_EQ(free_states(driven), 4);
-    driven.drive.by = DriveBy::nothing;
+    driven.drive.by = slideway::DriveBy::nothing;
     EXPECT_EQ(free_states(driven), 6);
     EXPECT_EQ(free_states(Parts{}), 10);
 }
