@@ -30,9 +30,20 @@ def ideal(scene: Mapping[str, Any], variable: str, time: np.ndarray) -> np.ndarr
         return np.zeros_like(time)
     mechanism = scene["mechanism"]
     motion = _motions.get(str(mechanism["kind"]))
-    if motion is None or variable not in ("x", "vx", "ax") or mechanism.get("crank") == "free":
+    if motion is None or variable not in ("x", "vx", "ax") or drive_kind(scene) != "speed":
         return None
     return motion(mechanism, time)[("x", "vx", "ax").index(variable)]
+
+
+def drive_kind(scene: Mapping[str, Any]) -> str:
+    """What moves the mechanism of a resolved scene: "speed", "profile", "torque" or "free"; of earlier results too.
+
+    >>> drive_kind(slideway.scene(slideway.example()))
+    'speed'
+    """
+    if scene.get("mechanism", {}).get("crank") == "free":  # as results of format 2 before [drive] have it
+        return "free"
+    return str(scene.get("drive", {}).get("kind", "speed"))
 
 
 def rod_reach(crank_length: float, rod_length: float, angle: np.ndarray, y: Any = 0.0, z: Any = 0.0) -> np.ndarray:

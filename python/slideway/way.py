@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from .ideal import ideal, rod_reach
+from .ideal import drive_kind, ideal, rod_reach
 from .scenes import scene, varied
 
 Array = NDArray[np.float64]
@@ -63,11 +63,13 @@ def along(resolved: Mapping[str, Any], time: Array, y: Array, z: Array, crank: A
         time [s]; y, z: of the slider's centre, inertial [m]; crank: angle [rad], of constant speed where it is left out.
 
     Returns:
-        None of a slider that nothing holds along the way.
+        None of a slider that nothing holds along the way, or whose crank's angle is not known.
     """
     mechanism = resolved["mechanism"]
     if "rod_length" not in mechanism:
         return ideal(resolved, "x", time)
+    if crank is None and drive_kind(resolved) != "speed":
+        return None
     angle = mechanism.get("start_angle", 0.0) + mechanism["crank_speed"] * time if crank is None else crank
     return rod_reach(mechanism["crank_length"], mechanism["rod_length"], angle, y, z)
 

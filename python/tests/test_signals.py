@@ -81,6 +81,8 @@ def test_nothing_is_ideal_without_a_drive() -> None:
     assert ideal({"mechanism": {"kind": "free_slider"}}, "x", time) is None
     assert ideal({"mechanism": {"kind": "a mechanism of a later version"}}, "x", time) is None
     assert ideal({"mechanism": {**crank["mechanism"], "kind": "planar_slider_crank", "crank": "free"}}, "x", time) is None
+    for kind in ("profile", "torque", "free"):
+        assert ideal({**crank, "drive": {"kind": kind}}, "x", time) is None
     assert ideal(crank, "normal_force", time) is None
     np.testing.assert_array_equal(ideal(crank, "y", time), 0)
 

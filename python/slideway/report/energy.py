@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import xarray as xr
 
 import slideway
+from slideway.ideal import drive_kind
 
 from .columns import Column, column
 from .numbers import amount, percent
@@ -83,13 +84,13 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
         return None
     terms = (column(every, name) for name in ("crank_work", "friction_loss", "damping_loss", "energy_change"))
     work, friction, damping, change = (one.mean if one else math.nan for one in terms)
-    mechanism = slideway.scene(result)["mechanism"]
-    if mechanism["kind"] == "free_slider" or mechanism.get("crank") == "free":
+    scene = slideway.scene(result)
+    if scene["mechanism"]["kind"] == "free_slider" or drive_kind(scene) == "free":
         work = 0.0
     if "status" in result:
         duration = float(result["end_time"].values[slideway.finished(result).values].mean())
     else:
-        duration = float(slideway.scene(result)["study"].get("duration", math.nan))
+        duration = float(scene["study"].get("duration", math.nan))
     largest = max(abs(residual.low), abs(residual.high))
     return Balance(residual.mean, largest, work, friction, damping, change, duration, *_reference(result))
 

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 import slideway
+from slideway.ideal import drive_kind
 
 from .numbers import amount, counted, number
 
@@ -35,7 +36,7 @@ def of_scene(result: xr.Dataset, members: int) -> Facts:
     kind = str(mechanism.get("kind", ""))
     facts = [
         ("study", STUDIES.get(str(study.get("kind")), str(study.get("kind")))),
-        ("mechanism", str(result.attrs.get("mechanism_meaning", kind)) + _speed(mechanism)),
+        ("mechanism", str(result.attrs.get("mechanism_meaning", kind)) + _speed(scene)),
         ("clearance per side", "" if str(study.get("parameter")).startswith("joint.clearance") else _clearance(joint)),
         ("contact law", _law(result, scene.get("contact", {}))),
         ("friction", _friction(scene.get("friction", {}))),
@@ -73,7 +74,10 @@ def of_run(result: xr.Dataset) -> Facts:
     return facts
 
 
-def _speed(mechanism: dict[str, Any]) -> str:
+def _speed(scene: dict[str, Any]) -> str:
+    mechanism, kind = scene.get("mechanism", {}), drive_kind(scene)
+    if kind != "speed":
+        return {"profile": ", on a profile", "torque": ", on a motor", "free": ", without a drive"}[kind]
     if "crank_speed" in mechanism:
         speed = float(mechanism["crank_speed"])
         return f", crank at {number(speed)} rad/s ({number(speed * 60 / (2 * np.pi))} rpm)"

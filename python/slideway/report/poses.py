@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 import slideway
 from slideway import way
+from slideway.ideal import drive_kind
 
 from . import contact
 from .contact import Array
@@ -141,4 +142,6 @@ def _crank(scene: dict[str, Any], time: Array, stored: Array | None) -> tuple[Ar
     links = (float(mechanism["crank_length"]), float(mechanism["rod_length"]))
     if stored is not None:
         return stored, links
+    if drive_kind(scene) != "speed":
+        return None, None
     return mechanism.get("start_angle", 0.0) + mechanism["crank_speed"] * time, links
