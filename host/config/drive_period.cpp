@@ -100,6 +100,21 @@ PeriodRange drive_periods(Scene const& scene) {
     return range;
 }
 
+double fastest_period(Scene const& scene) {
+    Parts steady = scene.parts;
+    steady.drive = {};
+    if (scene.parts.drive.by == DriveBy::speed) return scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(steady, scene.inputs);
+    auto const largest = [&](std::string_view name) {
+        Key const& key = *find_key(name);
+        auto const varied = magnitudes(scene, key);
+        return varied ? varied->high : std::abs(key.get(scene.inputs));
+    };
+    Inputs in = scene.inputs;
+    if (scene.parts.drive.by == DriveBy::profile) in.crank_speed *= largest("drive.scale"), in.carriage_speed *= largest("drive.scale"), in.stroke *= largest("drive.scale");
+    else in.crank_speed = std::max(largest("mechanism.crank_speed"), largest("drive.no_load_speed"));
+    return drive_period(steady, in);
+}
+
 double shortest_reversal(Scene const& scene) {
     auto const varied = magnitudes(scene, *find_key("mechanism.reversal_time"));
     // Members at 0 fail before they run.

@@ -159,12 +159,14 @@ bool sets_motion(Key const& key) {
 }
 }  // namespace
 
+bool is_replaced_by_drive(Key const& key, Parts const& parts) {
+    if (key.group == KeyGroup::drive) return !is_of_drive(key, parts.drive);
+    return parts.drive.by == DriveBy::profile && sets_motion(key);
+}
+
 bool counts_for(Key const& key, Parts const& parts) {
     if (!counts_for(key, parts.mechanism)) return false;
-    if (key.group == KeyGroup::drive) return is_of_drive(key, parts.drive);
-    // A profile says how fast and how far.
-    bool const of_motion = sets_motion(key), by_profile = parts.drive.by == DriveBy::profile;
-    if (of_motion && by_profile) return false;
+    if (is_replaced_by_drive(key, parts)) return false;
     // Rigid contacts stick and slip exactly (docs/model.md 13).
     if (parts.rigid && key.group == KeyGroup::smooth_friction) return false;
     // What gives way under a face.

@@ -20,6 +20,8 @@ namespace slideway {
 bool counts_for(Key const& key, Mechanism mechanism);
 /// The same with the scene's law.
 bool counts_for(Key const& key, Parts const& parts);
+/// Whether the drive is why it does not: another kind has it, or a profile says how fast.
+bool is_replaced_by_drive(Key const& key, Parts const& parts);
 
 /// Every numeric key as it stands where it is defined, which is for good: one per input, in the order of `Inputs`, with what laws and mechanisms have of
 /// their own, those of modules too; and behind them those that set two inputs at once, joint.clearance and contact.young_modulus.

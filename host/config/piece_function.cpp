@@ -153,6 +153,13 @@ PieceFunction PieceFunction::less_a_line(double slope) const {
     return tilted;
 }
 
+PieceFunction PieceFunction::longer_by(double share) const {
+    PieceFunction longer = *this;
+    longer.high_ += share * (high_ - pieces_.front().from);
+    longer.find_cells();
+    return longer;
+}
+
 PieceFunction::At PieceFunction::at(double place) const {
     double const low = pieces_.front().from, times = repeats_ ? std::floor((place - low) / (high_ - low)) : 0;
     double const inside = std::clamp(place - times * (high_ - low), low, high_);

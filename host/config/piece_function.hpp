@@ -39,6 +39,8 @@ public:
     PieceFunction less_its_value_at(double place) const;
     /// Less a line through its first point, as steep as this.
     PieceFunction less_a_line(double slope) const;
+    /// Its last piece goes on for this share of its length.
+    PieceFunction longer_by(double share) const;
     double value(double place) const;
     double slope(double place) const;
     /// The largest magnitude of its slope, looked for at some places of each piece; and how far its values are apart there.

@@ -7,6 +7,7 @@
 
 #include "host/base/shown.hpp"
 #include "host/base/suggest.hpp"
+#include "host/config/drive.hpp"
 #include "host/config/scene_text.hpp"
 
 namespace slideway {
@@ -94,7 +95,13 @@ void refuse_study(Node const& root, Node const* node, std::string_view key, Prob
 }
 
 void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism) {
-    throw SceneError(fmt::format("{}: {} has no meaning for kind = \"{}\"; remove it", where, name, info(mechanism).name));
+    throw SceneError(fmt::format("{}: {} has no meaning for kind = \"{}\"; remove it", where, name, kind_of(mechanism)));
+}
+
+void refuse_replaced(Node const& node, Parts const& parts) {
+    refuse(node, {fmt::format("drive.kind \"{}\" {}", drive_names[static_cast<int>(parts.drive.by)],
+                              find_key(node.name)->group == KeyGroup::drive ? "does not have it" : "says how fast"),
+                  "remove it, or use another kind"});
 }
 
 void refuse_strange(Node const& node, Parts const& parts) {
@@ -102,7 +109,7 @@ void refuse_strange(Node const& node, Parts const& parts) {
 }
 
 void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism) {
-    throw SceneError(fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, info(mechanism).name));
+    throw SceneError(fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, kind_of(mechanism)));
 }
 
 void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead) {

@@ -48,7 +48,9 @@ TableFile read_table_file(Reading& reading, Node const& node);
 /// A field of its row for messages: `members.csv:3: name is "text" (…); …`.
 Node field_node(CsvReader const& table, std::string name, std::string text);
 
-/// [drive]: Scene::drive and Parts::drive, and the mechanism whose crank turns freely; needs the mechanism.
+/// drive.kind: Parts::drive, and the mechanism whose crank turns freely.
+void choose_drive(Reading& reading);
+/// The rest of [drive]: Scene::drive.
 void read_drive(Reading& reading);
 /// What follows from a profile, once the numbers are known.
 void finish_drive(Scene& scene);
@@ -119,6 +121,9 @@ struct PeriodRange {
     Key const* varied;  // why they may differ between members; nullptr: they do not
 };
 PeriodRange drive_periods(Scene const& scene);
+/// That of the drive at its fastest: a sweep goes by its fastest column, a profile by where it is steepest, a motor by the faster of its start and
+/// its no-load speed; infinite of what is at rest.
+double fastest_period(Scene const& scene);
 /// The least reversal_time that members of a carriage may have [s], > 0.
 double shortest_reversal(Scene const& scene);
 
@@ -132,6 +137,8 @@ inline constexpr double most_values = 1e10;
 
 /// A key, or a table, that does not count for the scene's mechanism, at a position.
 [[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
+/// A key that the scene's drive does not have, or has in other words.
+[[noreturn]] void refuse_replaced(Node const& node, Parts const& parts);
 /// A key that the scene's law does not know.
 [[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
 /// A quantity or a series that the scene's mechanism does not have.

@@ -27,10 +27,9 @@ constexpr std::string_view angle_unit[] = {"rad"}, speed_unit[] = {"rad/s"}, pla
 /// Reads one table [drive].
 class DriveReader {
 public:
-    DriveReader(Reading& reading, DriveBy by) : reading_(reading), scene_(reading.scene), by_(by) {}
+    explicit DriveReader(Reading& reading) : reading_(reading), scene_(reading.scene), by_(reading.scene.parts.drive.by) {}
 
     void read() {
-        scene_.parts.drive.by = by_;
         for (auto const& [name, kinds] : drive_keys) {
             if (Node const* const node = reading_.given(name); node != nullptr && (kinds >> static_cast<int>(by_) & 1u) == 0)
                 refuse(*node, {fmt::format("drive.kind \"{}\" does not have it", drive_names[static_cast<int>(by_)]), "remove it, or use another kind"});
@@ -87,6 +86,8 @@ private:
         if (!turns && table.repeats && std::abs(table.advance) > 1e-9 * function.range())
             refuse(file, {fmt::format("the carriage is {:.3g} m further each time that it repeats", table.advance), "end it where it begins, or set repeats = false"});
         if (turns || drive.gives == ProfileGives::speed) function = function.less_its_value_at(0);
+        // Rounding may have a run end behind its last row.
+        if (!table.repeats) function = function.longer_by(1e-9);
         drive.table.function = std::make_shared<PieceFunction const>(std::move(function));
     }
 
@@ -128,7 +129,7 @@ private:
 
 }  // namespace
 
-void read_drive(Reading& reading) {
+void choose_drive(Reading& reading) {
     Scene& scene = reading.scene;
     Node const* const table = reading.given("drive");
     if (table == nullptr) return;
@@ -137,25 +138,27 @@ void read_drive(Reading& reading) {
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     if (mechanism.drive == DriveKind::none || module_of(scene.parts.mechanism) != nullptr)
         throw SceneError(fmt::format("{}: drive has no meaning for kind = \"{}\"; remove it", table->where, mechanism.name));
-    DrivePlan plan;
-    plan.by = by;
-    if (plan.turns_freely()) {
+    scene.parts.drive.by = by;
+    if (scene.parts.drive.turns_freely()) {
         auto const form = turning_form(scene.parts.mechanism);
         if (!form) refuse(*kind, {fmt::format("a {} has no crank that could turn freely", mechanism.name), "use \"speed\" or \"profile\""});
         scene.parts.mechanism = *form;
     }
-    DriveReader(reading, by).read();
+}
+
+void read_drive(Reading& reading) {
+    if (reading.given("drive") != nullptr) DriveReader(reading).read();
 }
 
 void finish_drive(Scene& scene) {
     if (scene.parts.drive.by != DriveBy::profile) return;
     Inputs& in = scene.inputs;
     PieceFunction const& profile = *scene.drive->table.function;
-    double const fastest = profile.steepest() * std::abs(in.drive_scale);
+    double const fastest = profile.steepest();
     in.profile_speed = profile.slope(0);
-    // Tolerances are meant against the drive's rate: that of a crank as fast as the fastest here, of a carriage as fast and as far.
+    // Tolerances are meant against the drive's rate: that of a crank as fast as the fastest here, times the scale, of a carriage as fast and as far.
     if (info(scene.parts.mechanism).drive == DriveKind::crank) in.crank_speed = fastest;
-    if (info(scene.parts.mechanism).drive == DriveKind::carriage && fastest > 0) in.carriage_speed = fastest, in.stroke = profile.range() * std::abs(in.drive_scale);
+    if (info(scene.parts.mechanism).drive == DriveKind::carriage && fastest > 0) in.carriage_speed = fastest, in.stroke = profile.range();
 }
 
 void check_profile(Reading const& reading, double longest) {

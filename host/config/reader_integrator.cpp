@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/config/drive.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
@@ -59,19 +60,18 @@ void warn_of_idle_keys(Node const& table, Reading& reading) {
 /// infinite where nothing is known of how fast that passes.
 double step_within_tables(Scene const& scene, double period) {
     double step = std::numeric_limits<double>::infinity();
-    if (scene.loads == nullptr) return step;
     Inputs const& in = scene.inputs;
-    for (std::size_t i = 0; i < scene.loads->rows().size(); ++i) {
-        LoadTable const& table = scene.loads->rows()[i].table;
-        if (table.function == nullptr) continue;
+    auto const limit = [&](LoadTable const& table, LoadArgument over) {
+        if (table.function == nullptr) return;
         bool const on_rod = info(scene.parts.mechanism).drive == DriveKind::crank;
         double const along = on_rod ? 1.5 * in.crank_length * 2 * std::numbers::pi / period : in.carriage_speed;  // about as fast as the slider becomes [m/s]
-        LoadArgument const over = scene.loads->load(i).over;
         double const rate = over == LoadArgument::time ? 1 : over == LoadArgument::crank_angle ? 2 * std::numbers::pi / period
                             : over == LoadArgument::x && std::isfinite(period) ? along : 0;
         // A table of very many rows is smooth between most of them.
         if (rate > 0) step = std::min(step, std::max(0.5 * table.narrowest, table.span / 4000) / rate);
-    }
+    };
+    for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->rows().size(); ++i) limit(scene.loads->rows()[i].table, scene.loads->load(i).over);
+    if (scene.drive != nullptr) limit(scene.drive->table, scene.parts.drive.by == DriveBy::profile ? LoadArgument::time : scene.parts.drive.over);
     return step;
 }
 
@@ -136,17 +136,14 @@ void read_integrator(Reading& reading) {
     read_located_modes(reading);
     apply_rules(reading, Known::integrator);
     if (!reading.given("integrator.atol")) settings.atol = atol_per_rtol * settings.rtol;
-    // A sweep goes by its fastest drive, a free crank by the speed that it starts with.
-    Parts driven = scene.parts;
-    driven.drive = {};
-    double const period = scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(driven, scene.inputs);
+    double const period = fastest_period(scene);
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;
     double max_step = std::min(longest_step, period / 2000);
     // That finds its touches inside a step, by the depths and rates at its ends.
     if (settings.method == Method::verner65 && mechanism.spatial && scene.chaos.exponents == 0) max_step = std::min(longest_step, period / 200);
     // Rigid contacts are found inside a step by its ends' depths and rates, and nothing happens fast between them.
-    if (scene.parts.rigid) max_step = std::min(50 * longest_step, period / 50);
+    if (scene.parts.rigid && !scene.parts.drive.turns_freely()) max_step = std::min(50 * longest_step, period / 50);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
     bool const reverses = mechanism.drive == DriveKind::carriage;
     double const of_tables = step_within_tables(scene, period);

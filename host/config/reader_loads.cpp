@@ -188,8 +188,8 @@ private:
         }
         std::size_t const over = choice("over", load_arguments);
         load_.over = static_cast<LoadArgument>(over + 1);
-        bool const by_angle = load_.over == LoadArgument::crank_angle;
-        if (by_angle && info(scene_.parts.mechanism).drive != DriveKind::crank)
+        bool const by_angle = load_.over == LoadArgument::crank_angle, by_crank = by_angle || load_.over == LoadArgument::crank_speed;
+        if (by_crank && info(scene_.parts.mechanism).drive != DriveKind::crank)
             refuse(*node_.find("over"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use time, x or vx"});
         Node const* const repeats = node_.find("repeats");
         bool const ever = repeats == nullptr ? by_angle : read_boolean(*repeats);

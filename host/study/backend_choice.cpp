@@ -38,16 +38,18 @@ std::uint64_t pays_from(Isa isa, int threads) {
 BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members) {
     using Kind = BackendRequest::Kind;
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    char const* const lack = !mechanism.on_cards   ? "the kernels for cards are of slider_crank alone"
+    bool const steady = scene.parts.drive.by == DriveBy::speed;
+    char const* const lack = !steady                ? "the kernels for cards know no drive but constant speed"
+                             : !mechanism.on_cards   ? "the kernels for cards are of slider_crank alone"
                              : scene.parts.rigid ? "the kernels for cards have no rigid contacts"
-                             : scene.parts.drive.by != DriveBy::speed ? "the kernels for cards know no drive but constant speed"
                              : scene.parts.loads.count > 0 ? "the kernels for cards have no loads"
                              : module_of(scene.parts.law) != nullptr ? "the kernels for cards have no laws of modules"
                                                  : nullptr;
     if (request.kind == Kind::cuda) {
         if (lack == nullptr) return {cuda_backend(request.share), ""};
         bool const of_loads = mechanism.on_cards && !scene.parts.rigid && scene.parts.loads.count > 0;
-        std::string const what = !mechanism.on_cards ? fmt::format("mechanism.kind is \"{}\"", mechanism.name)
+        std::string const what = !steady               ? std::string("drive.kind is given")
+                                 : !mechanism.on_cards ? fmt::format("mechanism.kind is \"{}\"", mechanism.name)
                                  : of_loads          ? fmt::format("load.{} is given", scene.parts.loads.loads[0].name)
                                                      : fmt::format("contact.law is \"{}\"", contact_info(scene.parts).name);
         throw SceneError(fmt::format("{}: {} ({}); use --backend cpu", scene.path, what, lack));

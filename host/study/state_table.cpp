@@ -43,11 +43,11 @@ std::vector<std::string_view> state_names(Mechanism mechanism) {
 /// What starts a member in a state, which has columns of its own.
 bool starts_a_state(std::string_view name, Mechanism mechanism) {
     bool const crank = name == "mechanism.start_angle" || name == "mechanism.crank_speed";
-    return name.starts_with("initial.") || (crank && !info(mechanism).spatial);
+    return name.starts_with("initial.") || (crank && info(mechanism).may_turn_freely);
 }
 
 [[noreturn]] void fail_meaningless(std::string_view name, Mechanism mechanism, CsvReader const& lines) {
-    lines.fail(fmt::format("column {}: has no meaning for kind = \"{}\"; remove it", name, info(mechanism).name));
+    lines.fail(fmt::format("column {}: has no meaning for kind = \"{}\"; remove it", name, kind_of(mechanism)));
 }
 
 Column input_column(std::string_view name, Scene const& scene, CsvReader const& lines) {

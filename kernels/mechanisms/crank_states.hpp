@@ -21,11 +21,6 @@ struct CrankStateBase : SliderBase {
         scale[10] = p.length_scale_y / p.crank_length;
         scale[11] = scale[10] * p.rate_scale;
     }
-    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
-        auto p = slider_parameters(in);
-        p.rate_scale = max(p.rate_scale, in.drive_no_load_speed);  // it may begin at rest
-        return p;
-    }
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         SliderBase::initial_state(in, s);
         s[10] = in.start_angle;

@@ -17,7 +17,11 @@ template <class Real> struct PlanarLinkMotion { Real a1, a2, r1, m12; };
 template <class Real>
 SLIDEWAY_FN GivenMotion<Real> planar_crank(DrivePlan const& drive, Real t, Real const* s, PlanarParameters<Real> const& p) {
     if (drive.turns_freely()) return {s[0], s[3], Real(0.0)};
-    return driven_crank(drive, t, p);
+    if (drive.by != DriveBy::profile) return driven_crank(drive, t, p);
+    // A state that is probed has the crank's angle at its own time.
+    auto motion = driven_crank(drive, t + p.start_time, p);
+    if (any(p.start_time != Real(0.0))) motion.place = fnma(p.motor.scale, profile_motion(*drive.table, p.start_time).place, motion.place);
+    return motion;
 }
 
 /// Crank and rod, and their common end: the slider's centre.

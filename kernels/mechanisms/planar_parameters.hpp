@@ -62,7 +62,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.friction = friction_parameters(in);
     put_load_numbers(in, p.load);
     p.motor = motor_parameters(in);
-    p.rate_scale = max(::fabs(in.crank_speed), 1.0);
+    p.rate_scale = drive_scale_rate(in);
     p.restitution = in.restitution;
     return p;
 }

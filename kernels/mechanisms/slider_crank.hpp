@@ -135,7 +135,7 @@ struct CrankAndRod {
     template <class Real> class At : public RodOnPin<Real> {
     public:
         SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, DrivePlan const& drive, Faults<Real>& faults)
-            : RodOnPin<Real>(driven_crank(drive, t, p), drive.by == DriveBy::profile, s, p, faults) {}
+            : At(driven_crank(drive, t, p), drive.by == DriveBy::profile, s, p, faults) {}
 
         /// m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
         SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& contact_force, SliderParameters<Real> const& p) const {
@@ -169,10 +169,22 @@ struct CrankAndRod {
         SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
                               Vec3<Real> const& contact_force, SliderParameters<Real> const& p, bool powers_alone, Report& report) const {
             report.fill_crank(this->pin_motion(), centre, this->d_, turning, contact_force, p, powers_alone);
+            if (!accelerates_) return;
+            // At constant speed the crank's own inertia does nothing.
+            Real const torque = p.motor.inertia * turning_.acceleration;
+            report.crank_power = fma(torque, turning_.velocity, report.crank_power);
+            if (powers_alone) return;
+            report.drive_torque = report.drive_torque + torque;
+            report.energy = fma(Real(0.5) * p.motor.inertia * turning_.velocity, turning_.velocity, report.energy);
         }
 
     private:
+        SLIDEWAY_FN At(GivenMotion<Real> const& turning, bool accelerates, Real const* s, SliderParameters<Real> const& p, Faults<Real>& faults)
+            : RodOnPin<Real>(turning, accelerates, s, p, faults), turning_(turning), accelerates_(accelerates) {}
+
         using RodOnPin<Real>::ky_, RodOnPin<Real>::kz_;
+        GivenMotion<Real> turning_;
+        bool accelerates_;
     };
 
     template <class Real> struct Constraint : RodConstraint<Real> {

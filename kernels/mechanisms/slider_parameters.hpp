@@ -142,8 +142,7 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     p.length_scale_y = in.clearance_y;
     p.length_scale_z = in.clearance_z;
     p.tilt_scale = 2 * min(in.clearance_y, in.clearance_z) / in.slider_length;
-    // A crank at rest or nearly so would ask for velocities to any number of digits.
-    p.rate_scale = max(::fabs(in.crank_speed), 1.0);
+    p.rate_scale = drive_scale_rate(in);
     return p;
 }
 

@@ -59,7 +59,7 @@ static inline void set_start(MechanismInfo const& mechanism, StateNumbers const&
         return;
     }
     double const crank = state[0], rod = state[1];
-    in.start_angle = crank, in.pitch = state[2], in.crank_speed = state[3], in.wz = state[5];
+    in.start_angle = crank, in.pitch = state[2], in.crank_speed = state[3], in.profile_speed = follows, in.wz = state[5];
     in.y = in.crank_length * std::sin(crank) + in.rod_length * std::sin(rod);
     in.vy = in.crank_length * std::cos(crank) * state[3] + in.rod_length * std::cos(rod) * state[4];
 }

@@ -15,7 +15,7 @@ namespace slideway {
 /// M v²/2 = 2 K δ^(n+1)/(n+1); inputs complete.
 static inline double stiffest_rate(MechanismInfo const& mechanism, LawInfo const& law, Inputs const& in) {
     if (!mechanism.spatial) {
-        double const n = in.hertz_exponent, speed = std::abs(in.crank_speed) * in.crank_length;
+        double const n = in.hertz_exponent, speed = std::max(std::abs(in.crank_speed * in.drive_scale), in.drive_no_load_speed) * in.crank_length;
         double const depth = std::pow((n + 1) * in.slider_mass * speed * speed / (4 * in.point_stiffness), 1 / (n + 1));
         double const stiffness = 2 * n * in.point_stiffness * std::pow(depth, n - 1), arm = in.slider_length / 2;
         return std::sqrt(stiffness * std::max(1 / in.slider_mass, arm * arm / in.slider_inertia_z));

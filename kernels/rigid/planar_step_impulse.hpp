@@ -35,7 +35,7 @@ public:
         Mask<Real> const touching = near_[0] | near_[1];
         if (none(touching)) return failed_;
         auto start_links = links;
-        start_links.turn_at(links.turns_freely ? s[3] : links.w1, s[4]);
+        start_links.turn_at(s[3], s[4]);
         auto const start = stance.motion(start_links.vx, start_links.vy, s[5]);
         auto const impulse = solve(touching, stance.pair, before, start, contact);
         auto const load = stance.load(impulse);

@@ -41,7 +41,7 @@ CrankMotion crank_motion(Inputs const& in, Parts const& parts, Real t, State con
 Real motor_torque(Inputs const& in, Parts const& parts, CrankMotion const& crank, Real t) {
     if (parts.drive.by == slideway::DriveBy::speed || parts.drive.by == slideway::DriveBy::profile) return 0;
     Real torque = in.drive_torque;
-    if (in.drive_no_load_speed != 0) torque *= 1 - crank.speed / Real(in.drive_no_load_speed);
+    if (in.drive_no_load_speed != 0) torque *= 1 - (in.drive_torque < 0 ? -crank.speed : crank.speed) / Real(in.drive_no_load_speed);
     using enum slideway::LoadArgument;
     if (parts.drive.table != nullptr) {
         auto const over = parts.drive.over;

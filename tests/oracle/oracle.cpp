@@ -68,7 +68,7 @@ struct Turning {
     Vector3 const& gravity;
     Real motor, load;
 
-    [[nodiscard]] bool has_crank() const { return parts.mechanism == Mechanism::slider_crank_motor; }
+    [[nodiscard]] bool has_crank() const { return parts.mechanism == Mechanism::slider_crank_motor || parts.mechanism == Mechanism::slider_crank; }
     [[nodiscard]] Real crank_mass() const { return has_crank() ? Real(in.crank_mass) : 0; }
     [[nodiscard]] Real inertia() const {
         Real const arm = Real(in.crank_length) / 2;
@@ -182,6 +182,11 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
             acceleration = motion.slider_acceleration;
             energy += rod_energy(in, crank, gravity);
             report_crank(in, crank, motion, gravity, result);
+            if (parts.drive.by != slideway::DriveBy::profile) break;
+            // What accelerates the crank itself.
+            result.power_crank += static_cast<double>(free.inertia() * turning.acceleration * turning.speed);
+            result.crank_torque_with_weight += static_cast<double>(free.inertia() * turning.acceleration);
+            energy += free.inertia() * turning.speed * turning.speed / 2;
             break;
         }
         case Mechanism::carriage:
@@ -207,7 +212,9 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
         result.derivative[10] = state[11];
         result.derivative[11] = static_cast<double>(turning.acceleration);
         result.power_crank = static_cast<double>(free.motor * turning.speed);
-        energy += free.inertia() * turning.speed * turning.speed / 2 - free.crank_mass() * gravity.dot(crank.pin) / 2;
+        energy += free.inertia() * turning.speed * turning.speed / 2;
+        if (free.has_crank()) energy -= free.crank_mass() * gravity.dot(crank.pin) / 2;
+        result.crank_torque_with_weight = static_cast<double>(free.motor);
     } else {
         result.power_crank -= static_cast<double>(of_crank);
     }

@@ -142,7 +142,7 @@ PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_spe
     mass(0, 0) += in.drive_inertia;
     bool const free = parts_.drive.turns_freely();
     Real const motor = torque + detail::motor_torque(in, parts_, {s[0], s[3], 0}, time);
-    Real const given = free ? Real(0) : detail::crank_motion(in, parts_, 0, {}).acceleration;
+    Real const given = free ? Real(0) : detail::crank_motion(in, parts_, time, {}).acceleration;
 
     // Unknown: q'' and the torque, which is given on a free crank and holds θ1'' as the drive has it on a driven one.
     Matrix system = Matrix::Zero(4, 4), right = Matrix::Zero(4, 1);

@@ -69,6 +69,10 @@ TEST_F(SceneDrives, RefuseWhatTheirKindHasNot) {
     EXPECT_EQ(error("scotch_yoke", "[drive]\nkind = \"torque\"\ntorque = 1\n"),
               "drive.inertia is 0 kg m2 (nothing else turns at a dead centre); use a value > 0");
     EXPECT_NE(error("slider_crank", "[drive]\nkind = \"torque\"\ntorque = 1\n", "[study]\nrevolutions = 2\n"), "");
+    EXPECT_EQ(scene("slider_crank", "crank_inertia = 1e-3\n[drive]\nkind = \"free\"\n").inputs.crank_inertia, 1e-3);
+    EXPECT_EQ(error("slider_crank", "crank_inertia = 1e-3\n"), "mechanism.crank_inertia has no meaning for kind = \"slider_crank\"; remove it");
+    EXPECT_EQ(error("carriage", "", "[load.a]\nforce_x = 1\ntable = \"drive.csv\"\nover = \"crank_speed\"\ncolumn = \"f\"\n[study]\nduration = 1\n"),
+              "load.a.over is \"crank_speed\" (a carriage has no crank); use time, x or vx");
 }
 
 TEST_F(SceneDrives, OnProfilesTurnByWhatTheirTableSays) {
@@ -120,7 +124,8 @@ TEST_F(SceneDrives, RefuseBadProfilesInOneLine) {
     EXPECT_NE(error("carriage", profile + "column = \"place\"\ngives = \"position\"\ninterpolation = \"linear\"\n"), "") << "speeds jump";
     table("time [s],speed [rad/s]\n0,1\n0,2\n");
     EXPECT_NE(error("slider_crank", speed).find("the place stands twice"), std::string::npos);
-    EXPECT_NE(error("slider_crank", "crank_speed = 3\n" + speed), "") << "the profile says how fast";
+    table("time [s],speed [rad/s]\n0,1\n5,2\n");
+    EXPECT_EQ(error("slider_crank", "crank_speed = 3\n" + speed), "mechanism.crank_speed is 3 (drive.kind \"profile\" says how fast); remove it, or use another kind");
 }
 
 }  // namespace
