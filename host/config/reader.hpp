@@ -52,7 +52,7 @@ InputFile read_file_beside(Node const& node, std::string const& scene);
 /// A field of its row for messages: `members.csv:3: name is "text" (…); …`.
 Node field_node(CsvReader const& table, std::string name, std::string text);
 
-/// [load.<name>]: Scene::loads, and the keys of their numbers; needs the mechanism.
+/// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion]: Scene::loads, and the keys of their numbers; needs the mechanism.
 void read_loads(Reading& reading);
 /// [modules], and which mechanism and law a scene names: modules that they are of are opened, and their keys are known from here on.
 void read_modules(Reading& reading);

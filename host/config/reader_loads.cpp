@@ -1,4 +1,4 @@
-// [load.<name>]: forces and torques, constant or by a table.
+// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion]: forces and torques, constant, by a table, or by where the slider is.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,6 +23,7 @@ namespace {
 
 /// Units of what a table is read over, in the order of load_arguments, and those that its values may come to.
 constexpr std::string_view argument_units[] = {"rad", "s", "m", "m/s"}, value_units[] = {"1", "N", "N m", "Pa", "N/m", "N s/m", "m/s2"};
+constexpr std::string_view acceleration_units[] = {"m/s2"};
 
 /// How numbers of a column become SI ones.
 UnitFactor si_factor(Node const& header, std::span<std::string_view const> units) {
@@ -37,9 +38,10 @@ UnitFactor si_factor(Node const& header, std::span<std::string_view const> units
 /// Rows of two columns of a table.
 class TwoColumns {
 public:
-    TwoColumns(CsvReader& rows, Node const& asking, std::string_view argument, std::string_view argument_unit, std::string_view value)
+    TwoColumns(CsvReader& rows, Node const& asking, std::string_view argument, std::string_view argument_unit, std::string_view value,
+               std::span<std::string_view const> units)
         : rows_(rows), argument_(column(asking, argument)), value_(column(asking, value)),
-          argument_factor_(si_factor(cell(argument_), {&argument_unit, 1})), value_factor_(si_factor(cell(value_), value_units)) {}
+          argument_factor_(si_factor(cell(argument_), {&argument_unit, 1})), value_factor_(si_factor(cell(value_), units)) {}
 
     void add_row() {
         rows_.require_columns();
@@ -74,46 +76,129 @@ private:
 
 constexpr std::size_t most_rows = 1'000'000;
 
+/// A load as a table of the scene gives it, without the places of its numbers.
+struct GivenLoad {
+    SceneLoads::Row row;
+    Load load;
+    std::vector<LoadNumber const*> numbers;
+};
+
 class LoadReader {
 public:
-    LoadReader(Node const& node, Scene const& scene) : node_(node), scene_(scene) {
-        row_.name = node.key;
-        if (!node.is_table()) refuse(node, {"a load is a table", fmt::format("write [{}] and its keys below", node.name)});
-        if (!is_module_name(node.key))
-            refuse_that(node, "is no name of a load", {"names have at most 60 small letters, digits and '_', a letter first", "rename it"});
-        on_crank_ = choice("on", load_bodies) == 1;
-        load_.turns_with_slider = choice("frame", load_frames) == 1;
-        bool const turns = info(scene.parts.mechanism).drive == DriveKind::crank;
-        if (on_crank_ && !turns) refuse(*node.find("on"), {fmt::format("a {} has no crank", info(scene.parts.mechanism).name), "use on = \"slider\""});
-        if (on_crank_ && node.find("frame") != nullptr) refuse(*node.find("frame"), {"the torque on a crank is about its axis", "remove it"});
+    /// @param node the table of one load
+    LoadReader(Node const& node, LoadKind kind, Scene const& scene) : node_(node), kind_(kind), scene_(scene) {
+        if (!node.is_table()) refuse(node, {fmt::format("a {} is a table", noun()), fmt::format("write [{}] and its keys below", node.name)});
+        if (has_named_loads(table_of(kind)) && !is_module_name(node.key))
+            refuse_that(node, fmt::format("is no name of a {}", noun()), {"names have at most 60 small letters, digits and '_', a letter first", "rename it"});
+        given_.row.name = node.name;
+        given_.load.kind = kind;
+        on_crank_ = kind == LoadKind::push && choice("on", load_bodies) == 1;
         for (Node const& child : node.children) check(child);
-        if (std::ranges::all_of(numbers_, [](LoadNumber const* number) { return number->name == "scale" || number->name.starts_with("point"); }))
-            refuse_missing(node, node.name + (on_crank_ ? ".torque" : ".force_x"), "a load without a force or a torque does nothing", "give one");
-        read_table();
     }
 
-    std::vector<LoadNumber const*> const& numbers() const { return numbers_; }
-    SceneLoads::Row take_row() { return std::move(row_); }
-    Load& load() { return load_; }
+    /// What there is of it; of the ground's motion one for each axis.
+    std::vector<GivenLoad> read() {
+        switch (kind_) {
+            case LoadKind::push: read_push(); break;
+            case LoadKind::spring: read_spring(); break;
+            case LoadKind::stop: read_stop(); break;
+            case LoadKind::ground_motion: return read_ground();
+        }
+        return {std::move(given_)};
+    }
 
 private:
+    std::string noun() const { return kind_ == LoadKind::ground_motion ? "motion of the ground" : std::string(table_of(kind_)); }
+    bool is_planar() const { return !info(scene_.parts.mechanism).spatial; }
+
     std::size_t choice(std::string_view name, std::span<std::string_view const> of, std::size_t preset = 0) const {
         Node const* const given = node_.find(name);
         return given == nullptr ? preset : read_choice(*given, name, of);
     }
+    bool gives(std::string_view name) const {
+        return std::ranges::any_of(given_.numbers, [&](LoadNumber const* number) { return number->name.starts_with(name); });
+    }
+    void require(std::string_view name, std::string_view why, std::string_view advice) const {
+        if (node_.find(name) == nullptr) refuse_missing(node_, fmt::format("{}.{}", node_.name, name), why, advice);
+    }
 
     void check(Node const& child) {
-        auto const number = std::ranges::find(load_numbers(), child.key, &LoadNumber::name);
-        if (number == load_numbers().end()) {
+        LoadNumber const* const number = find_load_number(kind_, child.key);
+        if (number == nullptr) {
             std::vector<std::string_view> known;
-            for (Setting const& one : load_settings()) known.push_back(one.name.substr(one.name.rfind('.') + 1));
+            for (Setting const& one : load_settings()) {
+                if (one.table() == table_of(kind_)) known.push_back(one.name.substr(one.name.rfind('.') + 1));
+            }
             if (std::ranges::find(known, child.key) != known.end()) return;
-            refuse_that(child, "is no key of a load", {"mistyped, it would have no effect", choice_advice(child.key, known)});
+            refuse_that(child, fmt::format("is no key of a {}", noun()), {"mistyped, it would have no effect", choice_advice(child.key, known)});
         }
         if (on_crank_ ? !number->of_crank : !number->of_slider)
             refuse(child, {fmt::format("it is of loads on the {}", on_crank_ ? "slider" : "crank"), on_crank_ ? "use torque" : "use torque_z, or on = \"crank\""});
-        if (!number->planar && !info(scene_.parts.mechanism).spatial) refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
-        numbers_.push_back(&*number);
+        if (!number->planar && is_planar()) refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
+        given_.numbers.push_back(number);
+    }
+
+    void read_push() {
+        given_.load.turns_with_slider = choice("frame", load_frames) == 1;
+        bool const turns = info(scene_.parts.mechanism).drive == DriveKind::crank;
+        if (on_crank_ && !turns) refuse(*node_.find("on"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use on = \"slider\""});
+        if (on_crank_ && node_.find("frame") != nullptr) refuse(*node_.find("frame"), {"the torque on a crank is about its axis", "remove it"});
+        if (!gives("force") && !gives("torque"))
+            refuse_missing(node_, node_.name + (on_crank_ ? ".torque" : ".force_x"), "a load without a force or a torque does nothing", "give one");
+        read_table();
+    }
+
+    void read_spring() {
+        bool const along = given_.load.along = choice("along", spring_directions) == 1;
+        if (!gives("anchor")) require("anchor_x", "where the spring is held on the ground", "add anchor_x = 0.1, or another component of the place");
+        if (!gives("stiffness") && !gives("damping") && !gives("preload"))
+            require("stiffness", "a spring without a stiffness, a damping or a preload does nothing", "add stiffness = \"2 N/mm\"");
+        for (std::string_view const across : {"anchor_y", "anchor_z"}) {
+            if (Node const* const idle = node_.find(across); along && idle != nullptr)
+                refuse(*idle, {"a spring along x has its force and its length along x alone", "remove it, or along = \"x\""});
+        }
+        if (gives("stiffness") && !along) require("rest_length", "the length at which the spring is slack but for its preload", "add rest_length = \"50 mm\"");
+    }
+
+    void read_stop() {
+        require("position", "where along x the slider touches the stop", "add position = 0.15");
+        require("blocks", "which way the slider cannot go on", "add blocks = \"+x\", or \"-x\"");
+        require("stiffness", "how far the stop gives way", "add stiffness = \"1e7 N/m\"");
+        given_.load.side = choice("blocks", stop_sides) == 0 ? 1 : -1;
+    }
+
+    /// A load for each of the columns ax, ay, az that the table has.
+    std::vector<GivenLoad> read_ground() {
+        require("table", "the ground's acceleration over time", "add table = \"quake.csv\", of columns time and ax, ay or az");
+        Node const& file = *node_.find("table");
+        constexpr std::string_view axes[] = {"ax", "ay", "az"}, scales[] = {"scale_x", "scale_y", "scale_z"};
+        given_.row.table.interpolation = static_cast<Interpolation>(choice("interpolation", interpolation_names));
+        given_.load.over = LoadArgument::time;
+        Node const* const repeats = node_.find("repeats");
+        std::vector<std::string> const columns = columns_of(file);
+        std::vector<GivenLoad> all;
+        for (std::size_t axis = 0; axis < (is_planar() ? 2u : 3u); ++axis) {
+            Node const* const scale = node_.find(scales[axis]);
+            bool const has = std::ranges::find(columns, axes[axis]) != columns.end();
+            if (!has && scale != nullptr) refuse(*scale, {fmt::format("the table has no column {}", axes[axis]), "remove it, or add the column"});
+            if (!has) continue;
+            given_.row.table.column = axes[axis];
+            read_file(file, file, argument_of_time, repeats != nullptr && read_boolean(*repeats), acceleration_units);
+            given_.numbers = {find_load_number(kind_, scales[axis])};
+            all.push_back(given_);
+        }
+        if (all.empty()) refuse(file, {"the table has no column of an acceleration", is_planar() ? "name one ax or ay" : "name one ax, ay or az"});
+        return all;
+    }
+
+    std::vector<std::string> columns_of(Node const& file) const {
+        InputFile input = read_file_beside(file, scene_.path);
+        std::istringstream in(std::move(input.bytes));
+        CsvReader rows(in, input.name);
+        std::vector<std::string> names;
+        if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
+        for (std::string const& field : rows.fields()) names.push_back(column_header(field).name);
+        return names;
     }
 
     void read_table() {
@@ -130,26 +215,27 @@ private:
                                name == "over" ? "add over = \"time\", or another column" : "add column = \"force\", or what it is called");
         }
         std::size_t const over = choice("over", load_arguments);
-        load_.over = static_cast<LoadArgument>(over + 1);
-        bool const by_angle = load_.over == LoadArgument::crank_angle;
+        given_.load.over = static_cast<LoadArgument>(over + 1);
+        bool const by_angle = given_.load.over == LoadArgument::crank_angle;
         if (by_angle && info(scene_.parts.mechanism).drive != DriveKind::crank)
             refuse(*node_.find("over"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use time, x or vx"});
         Node const* const repeats = node_.find("repeats");
         bool const ever = repeats == nullptr ? by_angle : read_boolean(*repeats);
-        row_.table.interpolation = static_cast<Interpolation>(choice("interpolation", interpolation_names));
-        read_file(*file, over, ever);
+        given_.row.table.interpolation = static_cast<Interpolation>(choice("interpolation", interpolation_names));
+        given_.row.table.column = read_text_value(*node_.find("column"));
+        read_file(*file, *node_.find("column"), over, ever, value_units);
     }
 
-    void read_file(Node const& file, std::size_t over, bool repeats) {
-        LoadTable& table = row_.table;
+    /// @param asking for the column  @param over a place in load_arguments
+    void read_file(Node const& file, Node const& asking, std::size_t over, bool repeats, std::span<std::string_view const> units) {
+        LoadTable& table = given_.row.table;
         InputFile input = read_file_beside(file, scene_.path);
         table.path = input.path;
         table.checksum = fnv1a(input.bytes);
-        table.column = read_text_value(*node_.find("column"));
         std::istringstream in(std::move(input.bytes));
         CsvReader rows(in, input.name);
         if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
-        TwoColumns columns(rows, *node_.find("column"), load_arguments[over], argument_units[over], table.column);
+        TwoColumns columns(rows, asking, load_arguments[over], argument_units[over], table.column, units);
         while (rows.next()) {
             if (columns.places.size() == most_rows) rows.fail(fmt::format("a table of a load has at most {} rows; thin it out", most_rows));
             columns.add_row();
@@ -183,47 +269,69 @@ private:
                                      columns.lines.back(), turns, turns > 50 ? "or give its unit in the header, as crank_angle [deg]" : "or set repeats = false"));
     }
 
+    static constexpr std::size_t argument_of_time = 1;
+    static_assert(load_arguments[argument_of_time] == "time");
+
     Node const& node_;
+    LoadKind const kind_;
     Scene const& scene_;
-    SceneLoads::Row row_;
-    Load load_;
+    GivenLoad given_;
     bool on_crank_ = false;
-    std::vector<LoadNumber const*> numbers_;
 };
+
+/// All that the tables of a scene give, in the order of load_tables.
+std::vector<GivenLoad> given_loads(Reading const& reading) {
+    std::vector<GivenLoad> all;
+    auto const add = [&](Node const& node, LoadKind kind) {
+        for (GivenLoad& load : LoadReader(node, kind, reading.scene).read()) all.push_back(std::move(load));
+    };
+    MechanismInfo const& mechanism = info(reading.scene.parts.mechanism);
+    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion}) {
+        Node const* const table = reading.given(table_of(kind));
+        if (table == nullptr) continue;
+        if (module_of(reading.scene.parts.mechanism) != nullptr) {
+            throw SceneError(fmt::format("{}: [{}] acts on the mechanisms of slideway, and {} is of a module; put it into its own equations", table->where,
+                                         table->name, mechanism.name));
+        }
+        if (!has_named_loads(table->key)) {
+            add(*table, kind);
+            continue;
+        }
+        if (!table->is_table()) refuse(*table, {fmt::format("{}s are tables", table->key), fmt::format("write [{}.name] and its keys below", table->key)});
+        for (Node const& node : table->children) add(node, kind);
+    }
+    return all;
+}
 
 }  // namespace
 
 void read_loads(Reading& reading) {
     Scene& scene = reading.scene;
-    Node const* const table = reading.given("load");
-    if (table == nullptr) return;
-    if (!table->is_table()) refuse(*table, {"loads are tables", "write [load.name] and its keys below"});
-    if (module_of(scene.parts.mechanism) != nullptr) {
-        throw SceneError(fmt::format("{}: loads act on the mechanisms of slideway, and {} is of a module; put them into its own equations", table->where,
-                                     info(scene.parts.mechanism).name));
-    }
-    std::vector<LoadReader> readers;
+    std::vector<GivenLoad> given = given_loads(reading);
+    if (given.empty()) return;
     std::vector<std::string> names;
     std::vector<LoadNumber const*> numbers;
-    for (Node const& node : table->children) {
-        readers.emplace_back(node, scene);
-        for (LoadNumber const* const number : readers.back().numbers()) {
-            names.push_back(fmt::format("{}.{}", node.name, number->name));
+    for (GivenLoad const& load : given) {
+        for (LoadNumber const* const number : load.numbers) {
+            names.push_back(fmt::format("{}.{}", load.row.name, number->name));
             numbers.push_back(number);
         }
     }
-    if (readers.empty()) return;
     std::vector<int> places;
     try {
         places = know_load_keys(names, numbers);
     } catch (std::length_error const& error) {
+        Node const* const table = reading.given_of({"load", "spring", "stop", "ground_motion"});
         throw SceneError(fmt::format("{}: {} numbers of loads are given ({}); use fewer", table->where, names.size(), error.what()));
     }
     auto loads = std::make_shared<SceneLoads>();
     auto place = places.begin();
-    for (LoadReader& reader : readers) {
-        for (LoadNumber const* const number : reader.numbers()) number->place(reader.load()) = *place++;
-        loads->add(reader.take_row(), reader.load());
+    for (GivenLoad& load : given) {
+        for (LoadNumber const* const number : load.numbers) {
+            scene.inputs.*load_inputs[*place] = number->preset;
+            number->place(load.load) = *place++;
+        }
+        loads->add(std::move(load.row), load.load);
     }
     scene.parts.loads = loads->list();
     scene.loads = std::move(loads);

@@ -66,8 +66,8 @@ struct CrankAndRod {
         /// m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
         SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& contact_force, SliderParameters<Real> const& p) const {
             Real const one(1.0);
-            Vec3<Real> force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
-                             fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
+            Vec3<Real> force{fma(p.weighing_mass, p.gravity_x, contact_force.x), fma(p.weighing_mass, p.gravity_y, contact_force.y),
+                             fma(p.weighing_mass, p.gravity_z, contact_force.z)};
             Real const pull = fnma(p.m_ab, aax_, fnma(p.mass, bias_, force.x));
             Real const fy = fma(ky_, pull, fnma(p.m_ab, aay_, force.y));
             Real const fz = fma(kz_, pull, force.z);

@@ -120,16 +120,22 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     Vector3 const force = joint.force + loads.force;
 
     Real const beta = in.inclination;
-    Vector3 const gravity = -Real(in.gravity) * Vector3(std::sin(beta), std::cos(beta), 0);
-    Vector3 acceleration = force / in.slider_mass + gravity;
-    Real energy = slider_energy(in, slider, gravity) + joint.potential;
+    Real const gamma = in.cross_inclination;
+    Vector3 const gravity = -Real(in.gravity) * Vector3(std::sin(beta), std::cos(beta) * std::cos(gamma), std::cos(beta) * std::sin(gamma));
+    // What a mass feels on ground that is accelerated.
+    Vector3 const felt = gravity - loads.ground;
+    Vector3 acceleration = force / in.slider_mass + felt;
+    Real energy = slider_energy(in, slider, gravity) + joint.potential + loads.potential;
+    Real ground_power = -in.slider_mass * loads.ground.dot(slider.velocity);
     Result result;
     switch (parts.mechanism) {
         case Mechanism::slider_crank: {
-            Motion const motion = solve_motion(in, crank, gravity, force);
+            Motion const motion = solve_motion(in, crank, felt, force);
             acceleration = motion.slider_acceleration;
             energy += rod_energy(in, crank, gravity);
-            report_crank(in, crank, motion, gravity, result);
+            report_crank(in, crank, motion, felt, result);
+            Real const share = in.rod_mass_center;
+            ground_power -= in.rod_mass * loads.ground.dot((1 - share) * crank.pin_velocity + share * slider.velocity);
             break;
         }
         case Mechanism::carriage:
@@ -152,6 +158,8 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     result.energy = static_cast<double>(energy);
     Real const of_crank = loads.crank_torque * in.crank_speed;
     result.power_load = static_cast<double>(loads.slider_power + of_crank);
+    result.power_ground = static_cast<double>(ground_power);
+    result.loss_springs = static_cast<double>(loads.spring_loss);
     result.power_crank -= static_cast<double>(of_crank);
 
     Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);

@@ -38,18 +38,18 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'435u);
+    EXPECT_LE(Layer("kernels").lines(), 17'620u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'062u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'615u);
-    EXPECT_LE(Layer("host").lines(), 29'977u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'618u);
+    EXPECT_LE(Layer("host").lines(), 30'184u);
     EXPECT_LE(Layer("host/store").lines(), 4'187u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
-    EXPECT_LE(kernels.count(type).in_all, 353u);
-    EXPECT_LE(Layer("host").count(type).in_all, 358u);
+    EXPECT_LE(kernels.count(type).in_all, 355u);
+    EXPECT_LE(Layer("host").count(type).in_all, 359u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 42u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }
