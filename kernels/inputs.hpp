@@ -47,6 +47,7 @@ struct Parts {
     row(start_angle, "mechanism.start_angle", 0, "rad", any, crank, "crank angle at the start")  /* θ0 */ \
     row(gravity, "mechanism.gravity", 9.81, "m/s2", any, slider, "gravity")  /* g */ \
     row(inclination, "mechanism.inclination", 0, "rad", right_angle, slider, "inclination of the way")  /* β */ \
+    row(cross_inclination, "mechanism.cross_inclination", 0, "rad", any, spatial, "inclination across the way")  /* γ */ \
     row(crank_mass, "mechanism.crank_mass", follows, "kg", positive, links, "mass of the crank")  /* m_c: ρ A_c r */ \
     row(rod_mass, "mechanism.rod_mass", follows, "kg", positive, links, "mass of the rod")  /* m_r: ρ A_r L */ \
     row(rod_mass_center, "mechanism.rod_mass_center", 0.5, "1", unit_interval, rod_centre, "centre of mass of the rod as a fraction of its length from the crank pin")  /* f_r */ \

@@ -37,15 +37,17 @@ std::string damping_text(Parts const& parts) {
     return "";
 }
 
-/// "loads plunger (indicator.csv over crank_angle), brake".
+/// "load.plunger (indicator.csv over crank_angle), spring.return".
 std::string loads_text(Scene const& scene) {
     SceneLoads const& loads = *scene.loads;
-    std::string text = "loads";
+    std::string text, last;
     for (std::size_t i = 0; i < loads.rows().size(); ++i) {
         auto const& [name, table] = loads.rows()[i];
-        text += fmt::format("{} {}", i == 0 ? "" : ",", name);
+        if (name == last) continue;
+        text += fmt::format("{}{}", i == 0 ? "" : ", ", name);
+        last = name;
         if (table.function == nullptr) continue;
-        TableFile const& file = *find_table(scene, fmt::format("load.{}.table", name));
+        TableFile const& file = *find_table(scene, name + ".table");
         text += fmt::format(" ({} over {})", std::filesystem::path(file.path).filename().string(), load_arguments[static_cast<int>(loads.load(i).over) - 1]);
     }
     return text;

@@ -4,57 +4,117 @@
 #include <deque>
 #include <numbers>
 
+#include "host/config/keys.hpp"
 #include "host/config/settings.hpp"
 #include "kernels/inputs.hpp"
 
 namespace slideway {
 namespace {
 
+using enum LoadKind;
+using enum Rule;
+
+/// Where a load has the place of a number.
+template <auto member> int& at(Load& load) { return load.*member; }
+template <auto member, int i> int& at(Load& load) { return (load.*member)[i]; }
+
 constexpr LoadNumber numbers[] = {
-    {.name = "force_x", .unit = "N", .meaning = "force along X", .place = [](Load& l) -> int& { return l.force[0]; }},
-    {.name = "force_y", .unit = "N", .meaning = "force along Y", .place = [](Load& l) -> int& { return l.force[1]; }},
-    {.name = "force_z", .unit = "N", .meaning = "force along Z", .place = [](Load& l) -> int& { return l.force[2]; }, .planar = false},
-    {.name = "torque_x", .unit = "N m", .meaning = "torque about X", .place = [](Load& l) -> int& { return l.torque[0]; }, .planar = false},
-    {.name = "torque_y", .unit = "N m", .meaning = "torque about Y", .place = [](Load& l) -> int& { return l.torque[1]; }, .planar = false},
-    {.name = "torque_z", .unit = "N m", .meaning = "torque about Z", .place = [](Load& l) -> int& { return l.torque[2]; }},
-    {.name = "point_x", .unit = "m", .meaning = "where the force acts, along the slider's X from its centre", .place = [](Load& l) -> int& { return l.point[0]; }},
-    {.name = "point_y", .unit = "m", .meaning = "where the force acts, along the slider's Y", .place = [](Load& l) -> int& { return l.point[1]; }},
-    {.name = "point_z", .unit = "m", .meaning = "where the force acts, along the slider's Z", .place = [](Load& l) -> int& { return l.point[2]; }, .planar = false},
-    {.name = "torque", .unit = "N m", .meaning = "torque on the crank", .place = [](Load& l) -> int& { return l.crank_torque; }, .of_crank = true, .of_slider = false},
-    {.name = "scale", .unit = "1", .meaning = "what force and torque are multiplied by", .place = [](Load& l) -> int& { return l.scale; }, .of_crank = true},
+    {push, "force_x", "N", "force along X", at<&Load::force, 0>},
+    {push, "force_y", "N", "force along Y", at<&Load::force, 1>},
+    {push, "force_z", "N", "force along Z", at<&Load::force, 2>, any, 0, false},
+    {push, "torque_x", "N m", "torque about X", at<&Load::torque, 0>, any, 0, false},
+    {push, "torque_y", "N m", "torque about Y", at<&Load::torque, 1>, any, 0, false},
+    {push, "torque_z", "N m", "torque about Z", at<&Load::torque, 2>},
+    {push, "point_x", "m", "where the force acts, along the slider's X from its centre", at<&Load::point, 0>},
+    {push, "point_y", "m", "where the force acts, along the slider's Y", at<&Load::point, 1>},
+    {push, "point_z", "m", "where the force acts, along the slider's Z", at<&Load::point, 2>, any, 0, false},
+    {push, "torque", "N m", "torque on the crank", at<&Load::crank_torque>, any, 0, true, true, false},
+    {push, "scale", "1", "what force and torque are multiplied by", at<&Load::scale>, any, 1, true, true},
+
+    {spring, "anchor_x", "m", "where the spring is held on the ground, along X", at<&Load::anchor, 0>},
+    {spring, "anchor_y", "m", "where the spring is held on the ground, along Y", at<&Load::anchor, 1>},
+    {spring, "anchor_z", "m", "where the spring is held on the ground, along Z", at<&Load::anchor, 2>, any, 0, false},
+    {spring, "point_x", "m", "where the slider holds the spring, along the slider's X from its centre", at<&Load::point, 0>},
+    {spring, "point_y", "m", "where the slider holds the spring, along the slider's Y", at<&Load::point, 1>},
+    {spring, "point_z", "m", "where the slider holds the spring, along the slider's Z", at<&Load::point, 2>, any, 0, false},
+    {spring, "stiffness", "N/m", "stiffness of the spring", at<&Load::stiffness>, not_negative},
+    {spring, "damping", "N s/m", "damping of the spring", at<&Load::damping>, not_negative},
+    {spring, "rest_length", "m", "length at which the tension is the preload", at<&Load::rest_length>},
+    {spring, "preload", "N", "tension at the rest length", at<&Load::preload>},
+
+    {stop, "position", "m", "x at which the slider's point touches the stop", at<&Load::anchor, 0>},
+    {stop, "point_x", "m", "the slider's point that touches, along the slider's X from its centre", at<&Load::point, 0>},
+    {stop, "point_y", "m", "the slider's point that touches, along the slider's Y", at<&Load::point, 1>},
+    {stop, "point_z", "m", "the slider's point that touches, along the slider's Z", at<&Load::point, 2>, any, 0, false},
+    {stop, "stiffness", "N/m", "stiffness of the stop", at<&Load::stiffness>, positive},
+    {stop, "damping", "N s/m", "damping of the stop", at<&Load::damping>, not_negative},
+    {stop, "dissipation", "s/m", "a speed into the stop multiplies the force of its stiffness by 1 + this times the speed", at<&Load::dissipation>, not_negative},
+
+    {ground_motion, "scale_x", "1", "what the ground's acceleration along X is multiplied by", at<&Load::force, 0>, any, 1},
+    {ground_motion, "scale_y", "1", "what the ground's acceleration along Y is multiplied by", at<&Load::force, 1>, any, 1},
+    {ground_motion, "scale_z", "1", "what the ground's acceleration along Z is multiplied by", at<&Load::force, 2>, any, 1, false},
 };
 
 using Type = Setting::Type;
 
-constexpr Setting other_rows[] = {
+// Above the numbers of their tables, and below them.
+constexpr Setting rows_above[] = {
     {.name = "load.<name>.on", .type = Type::choice, .unit = "", .meaning = "what the load acts on", .preset = "slider", .choices = load_bodies},
     {.name = "load.<name>.frame", .type = Type::choice, .unit = "",
      .meaning = "whose axes force and torque are along: those of the ground, or the slider's, with which they turn", .preset = "ground", .choices = load_frames},
-    {.name = "load.<name>.table", .type = Type::text, .unit = "", .meaning = "file of a table, beside the scene, whose column the load is multiplied by", .preset = "-"},
-    {.name = "load.<name>.over", .type = Type::choice, .unit = "", .meaning = "the table's column that the load is read over", .preset = "-", .choices = load_arguments},
-    {.name = "load.<name>.column", .type = Type::text, .unit = "", .meaning = "the table's column of values, which in SI units multiply the load", .preset = "-"},
+    {.name = "spring.<name>.along", .type = Type::choice, .unit = "",
+     .meaning = "line: from the anchor to the slider's point; x: along X alone, its length being x of the point less anchor_x", .preset = "line",
+     .choices = spring_directions},
+    {.name = "stop.<name>.blocks", .type = Type::choice, .unit = "", .meaning = "which way the slider cannot go on", .preset = "-", .choices = stop_sides},
+};
+constexpr Setting rows_below[] = {
+    {.name = "load.<name>.table", .type = Type::text, .unit = "",
+     .meaning = "file of a table, beside the scene, whose column the load is multiplied by", .preset = "-"},
+    {.name = "load.<name>.over", .type = Type::choice, .unit = "", .meaning = "the table's column that the load is read over", .preset = "-",
+     .choices = load_arguments},
+    {.name = "load.<name>.column", .type = Type::text, .unit = "", .meaning = "the table's column of values, which in SI units multiply the load",
+     .preset = "-"},
     {.name = "load.<name>.interpolation", .type = Type::choice, .unit = "", .meaning = "how the load runs between the rows of its table", .preset = "spline",
      .choices = interpolation_names},
     {.name = "load.<name>.repeats", .type = Type::truth, .unit = "",
      .meaning = "whether the table begins anew behind its last row; else the load stays as it is there", .preset = "true over crank_angle, else false"},
+    {.name = "ground_motion.table", .type = Type::text, .unit = "",
+     .meaning = "file of a table, beside the scene: columns time and one or more of ax, ay, az, the ground's acceleration", .preset = "-"},
+    {.name = "ground_motion.interpolation", .type = Type::choice, .unit = "", .meaning = "how the acceleration runs between the rows of the table",
+     .preset = "spline", .choices = interpolation_names},
+    {.name = "ground_motion.repeats", .type = Type::truth, .unit = "",
+     .meaning = "whether the table begins anew behind its last row; else the acceleration stays as it is there", .preset = "false"},
 };
+
+/// "load.<name>." of its numbers.
+std::string prefix_of(std::string_view table) { return std::string(table) + (has_named_loads(table) ? ".<name>." : "."); }
 
 }  // namespace
 
 std::span<LoadNumber const> load_numbers() { return numbers; }
 
+LoadNumber const* find_load_number(LoadKind kind, std::string_view name) {
+    auto const found = std::ranges::find_if(numbers, [&](LoadNumber const& number) { return number.kind == kind && number.name == name; });
+    return found == std::end(numbers) ? nullptr : found;
+}
+
 std::span<Setting const> load_settings() {
-    static std::deque<std::string> const names = [] {
-        std::deque<std::string> all;
-        for (LoadNumber const& number : numbers) all.push_back("load.<name>." + std::string(number.name));
-        return all;
-    }();
+    static std::deque<std::string> names;
     static std::vector<Setting> const rows = [] {
-        std::vector<Setting> all(std::begin(other_rows), std::end(other_rows));
-        for (std::size_t i = 0; i < std::size(numbers); ++i) {
-            Setting const row{.name = names[i], .type = Type::number, .unit = numbers[i].unit, .meaning = numbers[i].meaning,
-                              .preset = numbers[i].name == "scale" ? "1" : "0"};
-            all.insert(all.begin() + static_cast<std::ptrdiff_t>(2 + i), row);
+        std::vector<Setting> all;
+        for (std::string_view const table : load_tables) {
+            auto const add = [&](Setting const& row) {
+                if (row.table() == table) all.push_back(row);
+            };
+            std::ranges::for_each(rows_above, add);
+            for (LoadNumber const& number : numbers) {
+                if (table_of(number.kind) != table) continue;
+                names.push_back(prefix_of(table) + std::string(number.name));
+                bool const asked = number.rule == positive || number.name == "position";
+                all.push_back({.name = names.back(), .type = Type::number, .unit = number.unit, .meaning = number.meaning,
+                               .preset = asked ? "-" : number.preset == 1 ? "1" : "0", .range = range_of(number.rule)});
+            }
+            std::ranges::for_each(rows_below, add);
         }
         return all;
     }();
@@ -73,9 +133,7 @@ void SceneLoads::add(Row row, Load const& load) {
 
 int SceneLoads::add_key(std::string name, LoadNumber const& number) {
     auto const place = static_cast<int>(keys_.size());
-    // A scale that nobody gives is 1, everything else 0.
-    keys_.push_back({names_.emplace_back(std::move(name)), load_inputs[place], number.unit, Rule::any, KeyGroup::load, number.meaning,
-                     number.name == "scale" ? 1.0 : 0.0});
+    keys_.push_back({names_.emplace_back(std::move(name)), load_inputs[place], number.unit, number.rule, KeyGroup::load, number.meaning, number.preset});
     return place;
 }
 

@@ -1,4 +1,5 @@
-// [load.<name>]: what acts on a mechanism beside its weight, its contacts and its drive (docs/model.md 14).
+// [load.<name>], [spring.<name>], [stop.<name>] and [ground_motion]: what acts on a mechanism beside its weight, its contacts and its drive
+// (docs/model.md 14).
 #pragma once
 
 #include <deque>
@@ -18,19 +19,29 @@ struct Node;
 struct Reading;
 struct Setting;
 
+/// Tables of loads in a scene, in the order of LoadKind.  Of all but the last a scene has as many as it names.
+inline constexpr std::string_view load_tables[] = {"load", "spring", "stop", "ground_motion"};
+constexpr std::string_view table_of(LoadKind kind) { return load_tables[static_cast<int>(kind)]; }
+constexpr bool has_named_loads(std::string_view table) { return table == "load" || table == "spring" || table == "stop"; }
+
 /// A number that a load may have: load.<name>.force_x …
 struct LoadNumber {
+    LoadKind kind;
     std::string_view name, unit, meaning;
     int& (*place)(Load&);
-    bool of_crank = false, of_slider = true;  // of loads on which of them
+    Rule rule = Rule::any;
+    double preset = 0;
     bool planar = true;                       // it means something in a plane
+    bool of_crank = false, of_slider = true;  // of a push on which of them
 };
 std::span<LoadNumber const> load_numbers();
+LoadNumber const* find_load_number(LoadKind kind, std::string_view name);
 
-/// Rows of the table of keys (settings.hpp) for all of that and for what else [load.<name>] may say: load.<name>.on …
+/// Rows of the table of keys (settings.hpp) for all of that and for what else these tables may say: load.<name>.on …
 std::span<Setting const> load_settings();
 
 inline constexpr std::string_view load_bodies[] = {"slider", "crank"}, load_frames[] = {"ground", "slider"};
+inline constexpr std::string_view spring_directions[] = {"line", "x"}, stop_sides[] = {"+x", "-x"};
 inline constexpr std::string_view load_arguments[] = {"crank_angle", "time", "x", "vx", "crank_speed"};  // in the order of LoadArgument, behind `nothing`
 
 /// What a load has of its table (find_table of load.<name>.table).
@@ -50,13 +61,16 @@ struct TableKind {
     Interpolation interpolation;
     bool advances = false;  // where it repeats, it need not close
 };
-/// Of a file beside a scene.  @param file, column nodes that name them  @throws SceneError
-LoadTable read_table_of(Reading& reading, Node const& file, Node const& column, TableKind const& kind);
+/// Of a file beside a scene.  @param file names it  @param asking for the column  @throws SceneError
+LoadTable read_table_of(Reading& reading, Node const& file, Node const& asking, std::string const& column, TableKind const& kind);
 
 /// All loads of a scene.
 class SceneLoads {
 public:
-    struct Row { std::string name; LoadTable table; };
+    struct Row {
+        std::string name;  // of its table in the scene: load.plunger, ground_motion; the ground has a row for each axis
+        LoadTable table;
+    };
 
     SceneLoads() = default;
     SceneLoads(SceneLoads const&) = delete;  // loads name their rows

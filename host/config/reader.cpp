@@ -8,6 +8,7 @@
 #include "host/base/shown.hpp"
 #include "host/base/suggest.hpp"
 #include "host/config/drive.hpp"
+#include "host/config/loads.hpp"
 #include "host/config/scene_text.hpp"
 
 namespace slideway {
@@ -25,7 +26,7 @@ void check_known(Reading const& reading) {
     std::vector<std::string_view> all = keys;
     all.insert(all.end(), tables.begin(), tables.end());
     for (Node const& node : reading.root.children) {
-        if (node.key == "load") continue;  // read_loads does it
+        if (has_named_loads(node.key)) continue;  // read_loads does it
         bool const is_table = contains(tables, node.key);
         if (is_table && !node.is_table()) refuse(node, {"it must be a table", fmt::format("write [{}] and its keys below", node.key)});
         for (Node const& child : node.children) {

@@ -68,7 +68,7 @@ private:
         TableKind const kind{"time", "s", units, repeats(false), interpolation(), what == ProfileGives::angle};
         if (kind.interpolation == Interpolation::linear && what != ProfileGives::speed)
             refuse(*reading_.given("drive.interpolation"), {"speeds would jump at each row", "use \"spline\" or \"monotone\", or give speeds"});
-        drive->table = read_table_of(reading_, file, column, kind);
+        drive->table = read_table_of(reading_, file, column, read_text_value(column), kind);
         drive->gives = what;
         shape(*drive, turns, file);
         scene_.parts.drive.table = drive->plan_table();
@@ -116,7 +116,7 @@ private:
         static constexpr std::string_view units[] = {"rad/s", "rad", "s"};
         scene_.parts.drive.over = arguments[over];
         auto drive = std::make_shared<SceneDrive>();
-        drive->table = read_table_of(reading_, *file, column,
+        drive->table = read_table_of(reading_, *file, column, read_text_value(column),
                                      {drive_arguments[over], units[over], torque_units, repeats(arguments[over] == LoadArgument::crank_angle), interpolation()});
         scene_.parts.drive.table = drive->plan_table();
         scene_.drive = std::move(drive);

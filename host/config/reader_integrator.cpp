@@ -9,6 +9,7 @@
 #include "host/config/drive.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
+#include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
 namespace {
@@ -56,11 +57,11 @@ void warn_of_idle_keys(Node const& table, Reading& reading) {
     }
 }
 
-/// The longest step that does not leap over what a table has between two rows, but a 4000th of the whole table;
+/// The longest step that does not leap over what a table has between two rows, but a 4000th of the whole table, nor over a slider's bounce on a stop;
 /// infinite where nothing is known of how fast that passes.
-double step_within_tables(Scene const& scene, double period) {
+double step_within_loads(Scene const& scene, double period) {
     double step = std::numeric_limits<double>::infinity();
-    Inputs const& in = scene.inputs;
+    Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
     auto const limit = [&](LoadTable const& table, LoadArgument over) {
         if (table.function == nullptr) return;
         bool const on_rod = info(scene.parts.mechanism).drive == DriveKind::crank;
@@ -70,7 +71,12 @@ double step_within_tables(Scene const& scene, double period) {
         // A table of very many rows is smooth between most of them.
         if (rate > 0) step = std::min(step, std::max(0.5 * table.narrowest, table.span / 4000) / rate);
     };
-    for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->rows().size(); ++i) limit(scene.loads->rows()[i].table, scene.loads->load(i).over);
+    for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->rows().size(); ++i) {
+        Load const& load = scene.loads->load(i);
+        limit(scene.loads->rows()[i].table, load.over);
+        // A third of the time that the slider alone is on it.
+        if (load.kind == LoadKind::stop) step = std::min(step, std::sqrt(in.slider_mass / (in.*load_inputs[load.stiffness])));
+    }
     if (scene.drive != nullptr) limit(scene.drive->table, scene.parts.drive.by == DriveBy::profile ? LoadArgument::time : scene.parts.drive.over);
     return step;
 }
@@ -146,12 +152,12 @@ void read_integrator(Reading& reading) {
     if (scene.parts.rigid && !scene.parts.drive.turns_freely()) max_step = std::min(50 * longest_step, period / 50);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
     bool const reverses = mechanism.drive == DriveKind::carriage;
-    double const of_tables = step_within_tables(scene, period);
-    max_step = std::min(max_step, of_tables);
+    double const of_loads = step_within_loads(scene, period);
+    max_step = std::min(max_step, of_loads);
     double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;
     if (!reading.given("integrator.max_step")) settings.max_step = std::min(max_step, reversal);
     // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
-    double const stiff_step = std::min({10 * settings.max_step, reverses ? reversal : 10 * settings.max_step, of_tables});
+    double const stiff_step = std::min({10 * settings.max_step, reverses ? reversal : 10 * settings.max_step, of_loads});
     if (!reading.given("integrator.stiff_max_step")) settings.stiff_max_step = stiff_step;
     if (Node const* const table = reading.given("integrator")) warn_of_idle_keys(*table, reading);
 }

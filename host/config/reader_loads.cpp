@@ -1,10 +1,11 @@
-// [load.<name>]: forces and torques, constant or by a table.
+// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion]: forces and torques, constant, by a table, or by where the slider is.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +23,7 @@ namespace {
 
 /// Units of what a table is read over, in the order of load_arguments, and those that its values may come to.
 constexpr std::string_view argument_units[] = {"rad", "s", "m", "m/s", "rad/s"}, value_units[] = {"1", "N", "N m", "Pa", "N/m", "N s/m", "m/s2"};
+constexpr std::string_view acceleration_units[] = {"m/s2"};
 
 /// How numbers of a column become SI ones.
 UnitFactor si_factor(Node const& header, std::span<std::string_view const> units) {
@@ -37,9 +39,9 @@ UnitFactor si_factor(Node const& header, std::span<std::string_view const> units
 class TwoColumns {
 public:
     TwoColumns(CsvReader& rows, Node const& asking, std::string_view argument, std::string_view argument_unit,
-               std::span<std::string_view const> value_units, std::string_view value)
+               std::span<std::string_view const> units, std::string_view value)
         : rows_(rows), argument_(column(asking, argument)), value_(column(asking, value)),
-          argument_factor_(si_factor(cell(argument_), {&argument_unit, 1})), value_factor_(si_factor(cell(value_), value_units)) {}
+          argument_factor_(si_factor(cell(argument_), {&argument_unit, 1})), value_factor_(si_factor(cell(value_), units)) {}
 
     void add_row() {
         rows_.require_columns();
@@ -89,15 +91,15 @@ void check_turns(TwoColumns& columns, std::string const& name, TableKind const& 
 
 }  // namespace
 
-LoadTable read_table_of(Reading& reading, Node const& file, Node const& column, TableKind const& kind) {
+LoadTable read_table_of(Reading& reading, Node const& file, Node const& asking, std::string const& column, TableKind const& kind) {
     LoadTable table;
     TableFile const input = read_table_file(reading, file);
-    table.column = read_text_value(column);
+    table.column = column;
     table.interpolation = kind.interpolation;
     std::istringstream in(*input.text);
     CsvReader rows(in, input.name);
     if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
-    TwoColumns columns(rows, column, kind.argument, kind.argument_unit, kind.value_units, table.column);
+    TwoColumns columns(rows, asking, kind.argument, kind.argument_unit, kind.value_units, table.column);
     while (rows.next()) {
         if (columns.places.size() == most_rows) rows.fail(fmt::format("a table has at most {} rows; thin it out", most_rows));
         columns.add_row();
@@ -122,55 +124,130 @@ LoadTable read_table_of(Reading& reading, Node const& file, Node const& column, 
 
 namespace {
 
+/// A load as a table of the scene gives it, without the places of its numbers.
+struct GivenLoad {
+    SceneLoads::Row row;
+    Load load;
+    std::vector<LoadNumber const*> numbers;
+};
+
 class LoadReader {
 public:
-    LoadReader(Node const& node, Reading& reading) : node_(node), reading_(reading), scene_(reading.scene) {
-        row_.name = node.key;
-        if (!node.is_table()) refuse(node, {"a load is a table", fmt::format("write [{}] and its keys below", node.name)});
-        if (!is_module_name(node.key))
-            refuse_that(node, "is no name of a load", {"names have at most 60 small letters, digits and '_', a letter first", "rename it"});
-        on_crank_ = choice("on", load_bodies) == 1;
-        load_.turns_with_slider = choice("frame", load_frames) == 1;
-        bool const turns = info(scene_.parts.mechanism).drive == DriveKind::crank;
-        if (on_crank_ && !turns) refuse(*node.find("on"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use on = \"slider\""});
-        if (on_crank_ && node.find("frame") != nullptr) refuse(*node.find("frame"), {"the torque on a crank is about its axis", "remove it"});
+    /// @param node the table of one load
+    LoadReader(Node const& node, LoadKind kind, Reading& reading) : node_(node), kind_(kind), reading_(reading), scene_(reading.scene) {
+        if (!node.is_table()) refuse(node, {fmt::format("a {} is a table", noun()), fmt::format("write [{}] and its keys below", node.name)});
+        if (has_named_loads(table_of(kind)) && !is_module_name(node.key))
+            refuse_that(node, fmt::format("is no name of a {}", noun()), {"names have at most 60 small letters, digits and '_', a letter first", "rename it"});
+        given_.row.name = node.name;
+        given_.load.kind = kind;
+        on_crank_ = kind == LoadKind::push && choice("on", load_bodies) == 1;
         for (Node const& child : node.children) check(child);
-        if (std::ranges::all_of(numbers_, [](LoadNumber const* number) { return number->name == "scale" || number->name.starts_with("point"); }))
-            refuse_missing(node, node.name + (on_crank_ ? ".torque" : ".force_x"), "a load without a force or a torque does nothing", "give one");
-        warn_of_idle_points();
-        read_table();
     }
 
-    std::vector<LoadNumber const*> const& numbers() const { return numbers_; }
-    SceneLoads::Row take_row() { return std::move(row_); }
-    Load& load() { return load_; }
+    /// What there is of it; of the ground's motion one for each axis.
+    std::vector<GivenLoad> read() {
+        switch (kind_) {
+            case LoadKind::push: read_push(); break;
+            case LoadKind::spring: read_spring(); break;
+            case LoadKind::stop: read_stop(); break;
+            case LoadKind::ground_motion: return read_ground();
+        }
+        return {std::move(given_)};
+    }
 
 private:
+    std::string noun() const { return kind_ == LoadKind::ground_motion ? "motion of the ground" : std::string(table_of(kind_)); }
+    bool is_planar() const { return !info(scene_.parts.mechanism).spatial; }
+
     std::size_t choice(std::string_view name, std::span<std::string_view const> of, std::size_t preset = 0) const {
         Node const* const given = node_.find(name);
         return given == nullptr ? preset : read_choice(*given, name, of);
     }
+    bool gives(std::string_view name) const {
+        return std::ranges::any_of(given_.numbers, [&](LoadNumber const* number) { return number->name.starts_with(name); });
+    }
+    void require(std::string_view name, std::string_view why, std::string_view advice) const {
+        if (node_.find(name) == nullptr) refuse_missing(node_, fmt::format("{}.{}", node_.name, name), why, advice);
+    }
 
     void check(Node const& child) {
-        auto const number = std::ranges::find(load_numbers(), child.key, &LoadNumber::name);
-        if (number == load_numbers().end()) {
+        LoadNumber const* const number = find_load_number(kind_, child.key);
+        if (number == nullptr) {
             std::vector<std::string_view> known;
-            for (Setting const& one : load_settings()) known.push_back(one.name.substr(one.name.rfind('.') + 1));
+            for (Setting const& one : load_settings()) {
+                if (one.table() == table_of(kind_)) known.push_back(one.name.substr(one.name.rfind('.') + 1));
+            }
             if (std::ranges::find(known, child.key) != known.end()) return;
-            refuse_that(child, "is no key of a load", {"mistyped, it would have no effect", choice_advice(child.key, known)});
+            refuse_that(child, fmt::format("is no key of a {}", noun()), {"mistyped, it would have no effect", choice_advice(child.key, known)});
         }
         if (on_crank_ ? !number->of_crank : !number->of_slider)
             refuse(child, {fmt::format("it is of loads on the {}", on_crank_ ? "slider" : "crank"), on_crank_ ? "use torque" : "use torque_z, or on = \"crank\""});
-        if (!number->planar && !info(scene_.parts.mechanism).spatial) refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
-        numbers_.push_back(&*number);
+        if (!number->planar && is_planar()) refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
+        given_.numbers.push_back(number);
     }
 
-    void warn_of_idle_points() {
-        if (std::ranges::any_of(numbers_, [](LoadNumber const* number) { return number->name.starts_with("force"); })) return;
-        for (LoadNumber const* const number : numbers_) {
-            if (number->name.starts_with("point"))
-                reading_.warn(fmt::format("{}: {}.{} has no effect, for the load has no force", node_.find(number->name)->where, node_.name, number->name));
+    void read_push() {
+        given_.load.turns_with_slider = choice("frame", load_frames) == 1;
+        bool const turns = info(scene_.parts.mechanism).drive == DriveKind::crank;
+        if (on_crank_ && !turns) refuse(*node_.find("on"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use on = \"slider\""});
+        if (on_crank_ && node_.find("frame") != nullptr) refuse(*node_.find("frame"), {"the torque on a crank is about its axis", "remove it"});
+        if (!gives("force") && !gives("torque"))
+            refuse_missing(node_, node_.name + (on_crank_ ? ".torque" : ".force_x"), "a load without a force or a torque does nothing", "give one");
+        warn_of_idle_points();
+        read_table();
+    }
+
+    void read_spring() {
+        bool const along = given_.load.along = choice("along", spring_directions) == 1;
+        if (!gives("anchor")) require("anchor_x", "where the spring is held on the ground", "add anchor_x = 0.1, or another component of the place");
+        if (!gives("stiffness") && !gives("damping") && !gives("preload"))
+            require("stiffness", "a spring without a stiffness, a damping or a preload does nothing", "add stiffness = \"2 N/mm\"");
+        for (std::string_view const across : {"anchor_y", "anchor_z"}) {
+            if (Node const* const idle = node_.find(across); along && idle != nullptr)
+                refuse(*idle, {"a spring along x has its force and its length along x alone", "remove it, or along = \"x\""});
         }
+        if (gives("stiffness") && !along) require("rest_length", "the length at which the spring is slack but for its preload", "add rest_length = \"50 mm\"");
+    }
+
+    void read_stop() {
+        require("position", "where along x the slider touches the stop", "add position = 0.15");
+        require("blocks", "which way the slider cannot go on", "add blocks = \"+x\", or \"-x\"");
+        require("stiffness", "how far the stop gives way", "add stiffness = \"1e7 N/m\"");
+        given_.load.side = choice("blocks", stop_sides) == 0 ? 1 : -1;
+    }
+
+    /// A load for each of the columns ax, ay, az that the table has.
+    std::vector<GivenLoad> read_ground() {
+        require("table", "the ground's acceleration over time", "add table = \"quake.csv\", of columns time and ax, ay or az");
+        Node const& file = *node_.find("table");
+        constexpr std::string_view axes[] = {"ax", "ay", "az"}, scales[] = {"scale_x", "scale_y", "scale_z"};
+        given_.row.table.interpolation = static_cast<Interpolation>(choice("interpolation", interpolation_names));
+        given_.load.over = LoadArgument::time;
+        Node const* const repeats = node_.find("repeats");
+        std::vector<std::string> const columns = columns_of(file);
+        std::vector<GivenLoad> all;
+        for (std::size_t axis = 0; axis < (is_planar() ? 2u : 3u); ++axis) {
+            Node const* const scale = node_.find(scales[axis]);
+            bool const has = std::ranges::find(columns, axes[axis]) != columns.end();
+            if (!has && scale != nullptr) refuse(*scale, {fmt::format("the table has no column {}", axes[axis]), "remove it, or add the column"});
+            if (!has) continue;
+            given_.row.table.column = axes[axis];
+            read_file(file, file, argument_of_time, repeats != nullptr && read_boolean(*repeats), acceleration_units);
+            given_.numbers = {find_load_number(kind_, scales[axis])};
+            all.push_back(given_);
+        }
+        if (all.empty()) refuse(file, {"the table has no column of an acceleration", is_planar() ? "name one ax or ay" : "name one ax, ay or az"});
+        return all;
+    }
+
+    std::vector<std::string> columns_of(Node const& file) {
+        TableFile const input = read_table_file(reading_, file);
+        std::istringstream in(*input.text);
+        CsvReader rows(in, input.name);
+        std::vector<std::string> names;
+        if (!rows.next()) rows.fail("the table is empty; it needs a header and rows");
+        for (std::string const& field : rows.fields()) names.push_back(column_header(field).name);
+        return names;
     }
 
     void read_table() {
@@ -187,24 +264,34 @@ private:
                                name == "over" ? "add over = \"time\", or another column" : "add column = \"force\", or what it is called");
         }
         std::size_t const over = choice("over", load_arguments);
-        load_.over = static_cast<LoadArgument>(over + 1);
-        bool const by_angle = load_.over == LoadArgument::crank_angle, by_crank = by_angle || load_.over == LoadArgument::crank_speed;
+        given_.load.over = static_cast<LoadArgument>(over + 1);
+        bool const by_angle = given_.load.over == LoadArgument::crank_angle, by_crank = by_angle || given_.load.over == LoadArgument::crank_speed;
         if (by_crank && info(scene_.parts.mechanism).drive != DriveKind::crank)
             refuse(*node_.find("over"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use time, x or vx"});
         Node const* const repeats = node_.find("repeats");
         bool const ever = repeats == nullptr ? by_angle : read_boolean(*repeats);
-        row_.table.interpolation = static_cast<Interpolation>(choice("interpolation", interpolation_names));
-        read_file(*file, over, ever);
+        given_.row.table.interpolation = static_cast<Interpolation>(choice("interpolation", interpolation_names));
+        given_.row.table.column = read_text_value(*node_.find("column"));
+        read_file(*file, *node_.find("column"), over, ever, value_units);
     }
 
-    void read_file(Node const& file, std::size_t over, bool repeats) {
-        TableKind const kind{load_arguments[over], argument_units[over], value_units, repeats, row_.table.interpolation};
+    void warn_of_idle_points() {
+        if (gives("force")) return;
+        for (LoadNumber const* const number : given_.numbers) {
+            if (number->name.starts_with("point"))
+                reading_.warn(fmt::format("{}: {}.{} has no effect, for the load has no force", node_.find(number->name)->where, node_.name, number->name));
+        }
+    }
+
+    /// @param asking for the column  @param over a place in load_arguments
+    void read_file(Node const& file, Node const& asking, std::size_t over, bool repeats, std::span<std::string_view const> units) {
+        TableKind const kind{load_arguments[over], argument_units[over], units, repeats, given_.row.table.interpolation};
         LoadTable const* const same = former_table(file, kind);
         if (same == nullptr) {
-            row_.table = read_table_of(reading_, file, *node_.find("column"), kind);
+            given_.row.table = read_table_of(reading_, file, asking, given_.row.table.column, kind);
             return;
         }
-        row_.table = *same;
+        given_.row.table = *same;
         read_table_file(reading_, file);  // it is among the tables of this scene, too
     }
 
@@ -213,33 +300,61 @@ private:
         Scene const* const former = reading_.former;
         for (std::size_t i = 0; former != nullptr && former->loads != nullptr && i < former->loads->rows().size(); ++i) {
             auto const& [name, table] = former->loads->rows()[i];
-            TableFile const* const of = find_table(*former, fmt::format("load.{}.table", name));
-            if (of == nullptr || of->key != file.name || of->given != read_text_value(file) || former->loads->load(i).over != load_.over || table.column != read_text_value(*node_.find("column"))) continue;
-            if (table.interpolation == kind.interpolation && former->loads->load(i).table.repeats == kind.repeats) return &table;
+            TableFile const* const of = find_table(*former, name + ".table");
+            if (of == nullptr || of->key != file.name || of->given != read_text_value(file) || table.column != given_.row.table.column) continue;
+            Load const& load = former->loads->load(i);
+            if (load.over == given_.load.over && table.interpolation == kind.interpolation && load.table.repeats == kind.repeats) return &table;
         }
         return nullptr;
     }
 
+    static constexpr std::size_t argument_of_time = 1;
+    static_assert(load_arguments[argument_of_time] == "time");
+
     Node const& node_;
+    LoadKind const kind_;
     Reading& reading_;
     Scene const& scene_;
-    SceneLoads::Row row_;
-    Load load_;
+    GivenLoad given_;
     bool on_crank_ = false;
-    std::vector<LoadNumber const*> numbers_;
 };
+
+/// All that the tables of a scene give, in the order of load_tables.
+std::vector<GivenLoad> given_loads(Reading& reading) {
+    std::vector<GivenLoad> all;
+    auto const add = [&](Node const& node, LoadKind kind) {
+        for (GivenLoad& load : LoadReader(node, kind, reading).read()) all.push_back(std::move(load));
+    };
+    MechanismInfo const& mechanism = info(reading.scene.parts.mechanism);
+    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion}) {
+        Node const* const table = reading.given(table_of(kind));
+        if (table == nullptr) continue;
+        if (module_of(reading.scene.parts.mechanism) != nullptr) {
+            throw SceneError(fmt::format("{}: [{}] acts on the mechanisms of slideway, and {} is of a module; put it into its own equations", table->where,
+                                         table->name, mechanism.name));
+        }
+        if (!has_named_loads(table->key)) {
+            add(*table, kind);
+            continue;
+        }
+        if (!table->is_table()) refuse(*table, {fmt::format("{}s are tables", table->key), fmt::format("write [{}.name] and its keys below", table->key)});
+        for (Node const& node : table->children) add(node, kind);
+    }
+    return all;
+}
 
 }  // namespace
 
 void refuse_ungiven(std::string_view where, std::string_view name, Scene const& scene) {
-    constexpr std::string_view table = "load.";
     auto const dot = name.rfind('.');
-    if (!name.starts_with(table) || dot < table.size()) return;
+    if (dot == name.npos) return;
     std::string_view const load = name.substr(0, dot), own = name.substr(dot + 1);
-    auto const number = std::ranges::find(load_numbers(), own, &LoadNumber::name);
-    if (number == load_numbers().end()) return;
-    auto const is_load = [&](SceneLoads::Row const& row) { return row.name == load.substr(table.size()); };
-    std::string const advice = fmt::format("add {} = {}", own, own == "scale" ? 1 : 0);
+    auto const table = std::ranges::find(load_tables, load.substr(0, load.find('.')));
+    if (table == std::end(load_tables)) return;
+    LoadNumber const* const number = find_load_number(static_cast<LoadKind>(table - std::begin(load_tables)), own);
+    if (number == nullptr) return;
+    auto const is_load = [&](SceneLoads::Row const& row) { return row.name == load; };
+    std::string const advice = fmt::format("add {} = {}", own, number->preset);
     if (scene.loads == nullptr || std::ranges::none_of(scene.loads->rows(), is_load))
         throw SceneError(fmt::format("{}: {} is of no load of the scene (there is no [{}]); add that, or use the name of another", where, name, load));
     throw SceneError(fmt::format("{}: {} is not given in [{}] (a number must be given to vary); {}", where, name, load, advice));
@@ -247,23 +362,21 @@ void refuse_ungiven(std::string_view where, std::string_view name, Scene const& 
 
 void read_loads(Reading& reading) {
     Scene& scene = reading.scene;
-    Node const* const table = reading.given("load");
-    if (table == nullptr) return;
-    if (!table->is_table()) refuse(*table, {"loads are tables", "write [load.name] and its keys below"});
-    if (module_of(scene.parts.mechanism) != nullptr) {
-        throw SceneError(fmt::format("{}: loads act on the mechanisms of slideway, and {} is of a module; put them into its own equations", table->where,
-                                     info(scene.parts.mechanism).name));
-    }
-    if (table->children.empty()) return;
+    std::vector<GivenLoad> given = given_loads(reading);
+    if (given.empty()) return;
     auto loads = std::make_shared<SceneLoads>();
-    for (Node const& node : table->children) {
-        LoadReader reader(node, reading);
-        for (LoadNumber const* const number : reader.numbers()) {
-            if (loads->keys().size() == most_load_numbers)
-                refuse(*node.find(number->name), {"all loads of a scene have sixteen numbers at most", "use fewer"});
-            number->place(reader.load()) = loads->add_key(fmt::format("{}.{}", node.name, number->name), *number);
+    for (GivenLoad& load : given) {
+        for (LoadNumber const* const number : load.numbers) {
+            std::string name = fmt::format("{}.{}", load.row.name, number->name);
+            if (loads->keys().size() == most_load_numbers) {
+                Node const* const node = reading.given(name);
+                refuse(node != nullptr ? *node : *reading.given(load.row.name),
+                       {"all loads, springs and stops of a scene and the ground's motion have sixteen numbers at most", "use fewer"});
+            }
+            int const place = number->place(load.load) = loads->add_key(std::move(name), *number);
+            scene.inputs.*load_inputs[place] = number->preset;
         }
-        loads->add(reader.take_row(), reader.load());
+        loads->add(std::move(load.row), load.load);
     }
     scene.parts.loads = loads->list();
     scene.loads = std::move(loads);

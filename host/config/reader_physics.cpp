@@ -10,6 +10,7 @@
 #include "host/backend/backend.hpp"
 #include "host/backend/own_modules.hpp"
 #include "host/base/suggest.hpp"
+#include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
@@ -98,7 +99,7 @@ std::vector<GivenKey> given_keys(Reading const& reading) {
     auto const add = [&](Node const& table, auto const& add_below) -> void {
         for (Node const& node : table.children) {
             if (Key const* const key = find_key(node.name, reading.scene)) given.push_back({key, &node});
-            else if (table.key == "load") add_below(node, add_below);
+            else if (has_named_loads(table.key)) add_below(node, add_below);
         }
     };
     for (Node const& table : reading.root.children) add(table, add);

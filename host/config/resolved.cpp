@@ -75,24 +75,43 @@ std::string file_text(std::string const& path, std::size_t rows, std::uint64_t c
     return fmt::format("{}  # {} rows, FNV-1a {:016x}", toml_string(path), rows, checksum);
 }
 
-/// [load.name], one after the other.
+/// What a load's table says beside numbers and files.
+std::string load_choices(Load const& load) {
+    bool const on_crank = load.crank_torque != Load::none;
+    switch (load.kind) {
+        case LoadKind::push:
+            return fmt::format("on = \"{}\"\n", load_bodies[on_crank ? 1 : 0]) +
+                   (on_crank ? std::string() : fmt::format("frame = \"{}\"\n", load_frames[load.turns_with_slider ? 1 : 0]));
+        case LoadKind::spring: return fmt::format("along = \"{}\"\n", spring_directions[load.along ? 1 : 0]);
+        case LoadKind::stop: return fmt::format("blocks = \"{}\"\n", stop_sides[load.side > 0 ? 0 : 1]);
+        case LoadKind::ground_motion: break;
+    }
+    return {};
+}
+
+std::string load_file(TableFile const& file, LoadTable const& table, Load const& load) {
+    std::string text = fmt::format("table = {}\n", file_text(file.path, table.rows, file.checksum));
+    if (load.kind == LoadKind::push)
+        text += fmt::format("over = \"{}\"\ncolumn = {}\n", load_arguments[static_cast<int>(load.over) - 1], toml_string(table.column));
+    return text + fmt::format("interpolation = \"{}\"\nrepeats = {}\n", interpolation_names[static_cast<int>(table.interpolation)], load.table.repeats);
+}
+
+/// [load.name] and its like, one after the other.
 std::string loads_text(Scene const& scene) {
     std::string text;
-    for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->rows().size(); ++i) {
-        auto const& [name, table] = scene.loads->rows()[i];
+    if (scene.loads == nullptr) return text;
+    auto const rows = scene.loads->rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        auto const& [name, table] = rows[i];
         Load load = scene.loads->load(i);
-        bool const on_crank = load.crank_torque != Load::none;
-        text += fmt::format("\n[load.{}]\non = \"{}\"\n", name, load_bodies[on_crank ? 1 : 0]);
-        if (!on_crank) text += fmt::format("frame = \"{}\"\n", load_frames[load.turns_with_slider ? 1 : 0]);
+        if (i == 0 || rows[i - 1].name != name) text += fmt::format("\n[{}]\n", name) + load_choices(load);
         for (LoadNumber const& number : load_numbers()) {
-            int const place = number.place(load);
+            int const place = number.kind == load.kind ? number.place(load) : Load::none;
             if (place != Load::none) text += number_line(number.name, scene.inputs.*load_inputs[place], number.unit);
         }
-        if (table.function == nullptr) continue;
-        TableFile const& file = *find_table(scene, fmt::format("load.{}.table", name));
-        text += fmt::format("table = {}\n", file_text(file.path, table.rows, file.checksum));
-        text += fmt::format("over = \"{}\"\ncolumn = {}\n", load_arguments[static_cast<int>(load.over) - 1], toml_string(table.column));
-        text += fmt::format("interpolation = \"{}\"\nrepeats = {}\n", interpolation_names[static_cast<int>(table.interpolation)], load.table.repeats);
+        // The ground has one file for its axes.
+        bool const is_last = i + 1 == rows.size() || rows[i + 1].name != name;
+        if (table.function != nullptr && is_last) text += load_file(*find_table(scene, name + ".table"), table, load);
     }
     return text;
 }

@@ -104,7 +104,8 @@ template <class Model, class Real> struct Pack {
     /// Has a function see the number of each integral of the energy audit, and its place among all.
     template <class Function> SLIDEWAY_FN void each_audited(Function const& see) const {
         for (int i = 0; i < audited_without_loads; ++i) see(i, Observer::first_audited + i);
-        if (Observer::audit_integrals > 0 && needs.loads) see(audited_without_loads, Observer::first_audited + audited_without_loads);
+        if (!needs.loads) return;
+        for (int i = audited_without_loads; i < Observer::audit_integrals; ++i) see(i, Observer::first_audited + i);
     }
 
     /// What the next step starts from, in the lanes of the mask.
@@ -169,13 +170,15 @@ private:
     /// Has a function see the number of each, in loops of constant length.
     template <class Function> SLIDEWAY_FN void each_observed(Function const& see) const {
         for (int i = 0; i < powers_without_loads; ++i) see(i);
-        if (Observer::powers > 0 && needs.loads) see(powers_without_loads);
+        if (needs.loads) {
+            for (int i = powers_without_loads; i < Observer::powers; ++i) see(i);
+        }
         if (needs.powers_alone) return;
         for (int i = Observer::powers; i < Observer::integrals; ++i) see(i);
     }
-    // Of all powers that of the loads is the last.
-    static constexpr int audited_without_loads = Observer::audit_integrals > 0 ? Observer::audit_integrals - 1 : 0;
-    static constexpr int powers_without_loads = Observer::powers > 0 ? Observer::powers - 1 : 0;
+    // Of all powers those of loads are the last.
+    static constexpr int audited_without_loads = Observer::audit_integrals > 0 ? Observer::audit_integrals - Observer::of_loads : 0;
+    static constexpr int powers_without_loads = Observer::powers > 0 ? Observer::powers - Observer::of_loads : 0;
     SLIDEWAY_HD void observe(Report const& report, Real* values) const {
         needs.powers_alone ? Observer::powers_of(report, values) : Observer::integrands(report, values);
     }

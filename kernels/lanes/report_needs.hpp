@@ -15,7 +15,7 @@ struct ReportNeeds {
     bool peaks = false;          // inside of steps too
     bool powers_alone = false;   // which are the energy audit's alone
     bool audit = false;          // the audit's integrals meet the tolerance too
-    bool loads = false;          // there are some, whose work is the last of these integrals
+    bool loads = false;          // there are some, whose works are the last of these integrals
     bool switches = false;       // the law does: the audit keeps books of it
     Watching watching = Watching::nothing;
     bool ends = false;  // at the accepted steps

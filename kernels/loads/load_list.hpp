@@ -1,4 +1,4 @@
-// Loads on a mechanism, as a block has them: what acts where, and over what.  The numbers of a member are among its inputs, tables are the block's.
+// What acts on a mechanism beside weight, contact and drive, as a block has it.  The numbers of a member are among its inputs, tables are the block's.
 // Plain data outside the ISA namespace: every unit may share it.
 #pragma once
 
@@ -21,19 +21,38 @@ struct PieceTable {
     double cells_per_unit = 0;  // cells/(high − low)
 };
 
-/// Force and torque on the slider, or a torque on the crank.  Places are those of numbers among Inputs::load_a …; 0 where there is none.
+enum class LoadKind {
+    push,           // force and torque on the slider, or a torque on the crank
+    spring,         // from a point of the slider to one of the ground, or along X alone
+    stop,           // pushes the slider back from a place along X
+    ground_motion,  // acceleration of the ground
+};
+
+/// Places are those of numbers among Inputs::load_a …; 0 where there is none.
 struct Load {
     static constexpr int none = -1;
 
-    char const* name = "";  // load.<name> of the scene
-    int force[3] = {none, none, none};   // [N]
+    char const* name = "";  // load.<name> of the scene, spring.<name> …
+    LoadKind kind = LoadKind::push;
+    int force[3] = {none, none, none};  // [N]; of the ground its acceleration [m/s²]
+    int point[3] = {none, none, none};  // where it acts, in the slider's frame [m]
+    // of a push
     int torque[3] = {none, none, none};  // [N m], beside that of the force about the slider's centre
-    int point[3] = {none, none, none};   // where the force acts, in the slider's frame [m]
     int crank_torque = none;             // [N m], on the crank
-    int scale = none;                    // of all that; 1 where there is none
     bool turns_with_slider = false;      // force and torque are along the slider's axes, not those of the ground
+    // of a push, and of the ground's acceleration
+    int scale = none;  // of all that; 1 where there is none
     LoadArgument over = LoadArgument::nothing;
     PieceTable table;  // what they are multiplied by
+    // of a spring or a stop
+    int anchor[3] = {none, none, none};  // where it is held on the ground [m]; of a stop x alone counts
+    int stiffness = none;                // [N/m]
+    int damping = none;                  // [N s/m]
+    int rest_length = none;              // of a spring [m]
+    int preload = none;                  // its tension at this length [N]
+    int dissipation = none;              // of a stop [s/m]: its stiffness times 1 + this times the speed of the approach
+    bool along = false;                  // a spring that has its force along X alone, and its length
+    double side = 1;                     // of a stop: it blocks the way to larger x; −1 to smaller
 };
 
 inline constexpr int most_load_numbers = 16;  // of all loads of a scene

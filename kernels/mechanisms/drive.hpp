@@ -32,7 +32,7 @@ template <class Drive> struct DrivenGuide {
         SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& force, SliderParameters<Real> const& p) const {
             Real const lightness = Real(1.0) / p.slider_mass;
             return {Drive::is_free ? fma(force.x, lightness, p.gravity_x) : ax_, fma(force.y, lightness, p.gravity_y),
-                    force.z * lightness};
+                    fma(force.z, lightness, p.gravity_z)};
         }
 
         /// M Δu' = P, of which Δx' is 0 where a drive moves it.
@@ -91,13 +91,9 @@ template <class Drive> struct DrivenGuide {
     }
 };
 
-/// The way of a mechanism without a rod passes through (0, offset_y, offset_z).
+/// Of what moves along the way without crank and rod.
 struct DrivenBase : SliderBase {
-    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
-        auto p = slider_parameters(in);
-        p.joint.way.offset.x = 0;
-        return p;
-    }
+    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) { return parameters_without_rod(in); }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -17,8 +17,9 @@ template <class Real> struct MechanismReport {
     Real crank_power;         // of the drive: F_A · v_A, or F_x vx of a slider that is driven along the way [W]
     Real crank_torque;        // (A × F_A)_z [N m]
     Real drive_torque;        // the crank's own weight included [N m]
-    Real load_power = Real(0.0);  // of the loads on slider and crank [W]
-    Real energy;              // E of model.md 8, contact potential included [J]
+    Real energy;              // E of model.md 8, potentials of contacts, springs and stops included [J]
+    Real load_power = Real(0.0), ground_power = Real(0.0);      // of the loads on slider and crank, and of the ground's motion [W]
+    Real spring_loss = Real(0.0), spring_potential = Real(0.0);  // of springs and stops: power of their dampers [W], what they store [J]
     Real position_error;      // distance of the slider's centre from the ideal mechanism's [m]
     Real rod_spin;            // rod's angular velocity, magnitude [rad/s]
 

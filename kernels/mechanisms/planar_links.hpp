@@ -52,7 +52,7 @@ template <class Real> struct PlanarLinks {
         vx = negated(fma(y1, w1, y2 * w2));
         vy = fma(x1, w1, x2 * w2);
         loads = PlanarLoads<Real>::none();
-        if (list.count > 0) loads = PlanarLoads<Real>::of(list, {angle, t + p.start_time, x1 + x2, vx, w1}, vy, s[2], s[5], p);
+        if (list.count > 0) loads = PlanarLoads<Real>::of(list, {angle, t + p.start_time, x1 + x2, vx, w1}, y, vy, s[2], s[5], p);
     }
 
     /// M(θ) θ'' = R: inertia of the links, gravity, loads, and the force of contacts on their common end.
@@ -108,10 +108,13 @@ template <class Real> struct PlanarLinks {
         report.crank_torque = report.drive_torque = drive;  // the crank's weight is in the equations
         report.crank_power = drive * w1;
         report.load_power = loads.power;
+        report.ground_power = loads.ground_power;
+        report.spring_loss = loads.spring_loss;
+        report.spring_potential = loads.potential;
         Real const kinetic = half * fma(p.m11 * w1, w1, fma(p.m22 * w2, w2, p.slider_inertia * w3 * w3));
         Real const height = fma(p.crank_moment, fma(p.gravity_x, crank.cos, p.gravity_y * crank.sin),
                                 p.rod_moment * fma(p.gravity_x, rod.cos, p.gravity_y * rod.sin));
-        report.energy = (fma(motion.m12 * w1, w2, kinetic) - height) + report.contact.potential;
+        report.energy = (fma(motion.m12 * w1, w2, kinetic) - height) + (report.contact.potential + loads.potential);
         report.position_error = report.distance_error(x2, y1, y, p.rod_length);
         report.rod_spin = abs(w2);
     }

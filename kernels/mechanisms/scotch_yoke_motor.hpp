@@ -12,8 +12,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Its crank has no mass of its own; what turns is motor and flywheel.
 struct YokeMotorBase : CrankStateBase {
     SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
-        auto p = CrankStateBase::parameters(in);
-        p.joint.way.offset.x = 0;
+        auto p = parameters_without_rod(in);
         p.motor.inertia = in.drive_inertia;
         return p;
     }
@@ -49,7 +48,7 @@ struct YokeOnMotor : DrivenGuide<YokeOnMotor> {
             Real const pull = fms(p.slider_mass, bend - p.gravity_x, force.x);
             turning_ = fnma(slope_, pull, torque_) / fma(p.slider_mass * slope_, slope_, p.motor.inertia);
             Real const lightness = Real(1.0) / p.slider_mass;
-            return {fma(slope_, turning_, bend), fma(force.y, lightness, p.gravity_y), force.z * lightness};
+            return {fma(slope_, turning_, bend), fma(force.y, lightness, p.gravity_y), fma(force.z, lightness, p.gravity_z)};
         }
         SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real* rates) const {
             rates[10] = speed_;

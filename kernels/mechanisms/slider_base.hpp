@@ -50,6 +50,14 @@ struct SliderBase {
     }
 };
 
+/// The way of a mechanism without crank and rod passes through (0, offset_y, offset_z).
+SLIDEWAY_HD inline SliderParameters<double> parameters_without_rod(Inputs const& in) {
+    auto p = slider_parameters(in);
+    p.joint.way.offset.x = 0;
+    p.rod_mass = p.crank_moment = 0;
+    return p;
+}
+
 /// A slider free along the way too.  The way passes through (0, offset_y, offset_z); speeds are counted by the fall through the clearance,
 /// √(g c).
 struct FreeSliderBase : SliderBase {
@@ -65,8 +73,7 @@ struct FreeSliderBase : SliderBase {
     }
 
     SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
-        auto p = slider_parameters(in);
-        p.joint.way.offset.x = 0;
+        auto p = parameters_without_rod(in);
         p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(in.clearance_y, in.clearance_z)), 1.0);
         return p;
     }

@@ -62,7 +62,8 @@ protected:
     }
     /// Contact forces and weights on the centre.
     SLIDEWAY_FN static Vec3<Real> weighed(Vec3<Real> const& force, SliderParameters<Real> const& p) {
-        return {fma(p.weighing_mass, p.gravity_x, force.x), fma(p.weighing_mass, p.gravity_y, force.y), force.z};
+        return {fma(p.weighing_mass, p.gravity_x, force.x), fma(p.weighing_mass, p.gravity_y, force.y),
+                fma(p.weighing_mass, p.gravity_z, force.z)};
     }
     /// What y and z feel of them beside the rod's inertia, and `pull`, what is left along x.
     struct Felt { Real y, z, pull; };

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "kernels/loads/element_force.hpp"
 #include "kernels/loads/load_list.hpp"
-#include "kernels/loads/table_value.hpp"
+#include "kernels/loads/load_numbers.hpp"
+#include "kernels/math/trigonometry.hpp"
 #include "kernels/math/vec3.hpp"
 #include "kernels/mechanisms/crank_motion.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
@@ -10,91 +12,104 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What loads are read over in a state.
-template <class Real> struct LoadArguments {
-    Real crank_angle, time, x, vx, crank_speed;
-
-    SLIDEWAY_FN Real of(LoadArgument over) const {
-        switch (over) {
-            case LoadArgument::crank_angle: return crank_angle;
-            case LoadArgument::x: return x;
-            case LoadArgument::vx: return vx;
-            case LoadArgument::crank_speed: return crank_speed;
-            case LoadArgument::time:
-            case LoadArgument::nothing: break;
-        }
-        return time;
-    }
-};
-
-/// Numbers of a load in a state: those of the member, times what its table is there.
-template <class Real> class LoadNumbers {
-public:
-    /// @param numbers of a member, Inputs::load_a …
-    SLIDEWAY_FN LoadNumbers(Load const& load, Real const* numbers, LoadArguments<Real> const& arguments) : numbers_(numbers), factor_(Real(1.0)) {
-        if (load.scale != Load::none) factor_ = numbers[load.scale];
-        if (load.over != LoadArgument::nothing) factor_ = factor_ * table_value(load.table, arguments.of(load.over));
-    }
-
-    SLIDEWAY_FN Real scaled(int place) const { return place == Load::none ? Real(0.0) : factor_ * numbers_[place]; }
-    SLIDEWAY_FN Vec3<Real> scaled(int const (&places)[3]) const { return {scaled(places[0]), scaled(places[1]), scaled(places[2])}; }
-    SLIDEWAY_FN Vec3<Real> as_given(int const (&places)[3]) const { return {given(places[0]), given(places[1]), given(places[2])}; }
-
-private:
-    SLIDEWAY_FN Real given(int place) const { return place == Load::none ? Real(0.0) : numbers_[place]; }
-
-    Real const* numbers_;
-    Real factor_;
-};
-
 /// What all loads come to.  F acts on the slider at u + A p, with the torque (A p) × F about its centre, and does the work of F · (u' + ω × A p).
 /// (model.md 14)
 template <class Real> struct SliderLoads {
-    Vec3<Real> force;   // on the slider, along the axes of the ground [N]
+    Vec3<Real> force;   // on the slider, and on the rod's end there, along the axes of the ground [N]
     Vec3<Real> torque;  // about its centre, along its own axes [N m]
-    Real power;         // on slider and crank [W]
-    Real crank_torque;  // on the crank [N m]
+    Real power;         // of pushes on slider and crank [W]
+    Real ground_power;  // of the ground's motion [W]
+    Real spring_loss;   // of the dampers of springs and stops [W]
+    Real potential;     // of springs and stops [J]
+    Real crank_torque;  // on the crank: of pushes, and of the ground's motion by the rod's end there [N m]
     Real crank_power;   // of that [W]
+    Real pin_torque;    // the latter alone
+    Real crank_weight;  // torque of the ground's motion by the crank's own mass, whose weight is in no energy of a driven crank either [N m]
+    Real weight_power;  // of that [W]
 
     SLIDEWAY_FN static SliderLoads none() {
         Real const zero(0.0);
-        return {{zero, zero, zero}, {zero, zero, zero}, zero, zero, zero};
+        return {{zero, zero, zero}, {zero, zero, zero}, zero, zero, zero, zero, zero, zero, zero, zero, zero};
     }
 
     /// @param crank angle and speed of the crank  @param position, velocity of the slider's centre, along the axes of the ground
     SLIDEWAY_NOINLINE static SliderLoads of(LoadList const& list, Real t, GivenMotion<Real> const& crank, Vec3<Real> const& position, Vec3<Real> const& velocity,
                                             SliderTurning<Real> const& turning, SliderParameters<Real> const& p) {
-        auto const& axes = turning.axes;
-        auto const slider_velocity = to_slider(axes, velocity);
         LoadArguments<Real> const arguments{crank.place, t, position.x, velocity.x, crank.velocity};
         auto sum = none();
         for (int i = 0; i < list.count; ++i) {
             Load const& load = list.loads[i];
             LoadNumbers<Real> const numbers(load, p.load, arguments);
-            auto force = numbers.scaled(load.force), torque = numbers.scaled(load.torque);
-            auto const point = numbers.as_given(load.point);
-            if (load.turns_with_slider) {
-                sum.force = sum.force + from_slider(axes, force);
-            } else {
-                sum.force = sum.force + force;
-                force = to_slider(axes, force), torque = to_slider(axes, torque);
-            }
-            torque = torque + cross(point, force);
-            sum.torque = sum.torque + torque;
-            sum.power = sum.power + (dot(force, slider_velocity) + dot(torque, turning.omega));
-            sum.crank_torque = sum.crank_torque + numbers.scaled(load.crank_torque);
+            if (load.kind == LoadKind::push) sum.add_push(load, numbers, velocity, turning);
+            else if (load.kind == LoadKind::ground_motion) sum.add_ground(numbers.scaled(load.force), velocity, arguments.crank_angle, p);
+            else sum.add_element(load, numbers, position, velocity, turning);
         }
         sum.crank_power = sum.crank_torque * crank.velocity;
-        sum.power = sum.power + sum.crank_power;
+        Real const of_pin = sum.pin_torque * crank.velocity;
+        sum.power = sum.power + (sum.crank_power - of_pin);
+        sum.ground_power = sum.ground_power + of_pin;
+        sum.weight_power = sum.crank_weight * crank.velocity;
         return sum;
     }
+
+    /// Torque on a crank that turns freely.
+    SLIDEWAY_FN Real turning() const { return crank_torque + crank_weight; }
 
     /// What a report tells of them, once it has told the rest: torque on a driven crank is not the drive's.
     template <class Report> SLIDEWAY_FN void tell(DrivePlan const& drive, Report& report) const {
         report.load_power = power;
-        if (drive.turns_freely()) return;
+        report.ground_power = ground_power;
+        report.spring_loss = spring_loss;
+        report.spring_potential = potential;
+        report.energy = report.energy + potential;
+        report.crank_torque = report.crank_torque - pin_torque;
+        if (drive.turns_freely()) {
+            report.ground_power = report.ground_power + weight_power;
+            return;
+        }
         report.crank_power = report.crank_power - crank_power;
-        report.drive_torque = report.drive_torque - crank_torque;
+        report.drive_torque = report.drive_torque - turning();
+    }
+
+private:
+    SLIDEWAY_FN void add_push(Load const& load, LoadNumbers<Real> const& numbers, Vec3<Real> const& velocity, SliderTurning<Real> const& turning) {
+        auto const& axes = turning.axes;
+        auto along = numbers.scaled(load.force), twist = numbers.scaled(load.torque);
+        auto const point = numbers.as_given(load.point);
+        if (load.turns_with_slider) {
+            force = force + from_slider(axes, along);
+        } else {
+            force = force + along;
+            along = to_slider(axes, along), twist = to_slider(axes, twist);
+        }
+        twist = twist + cross(point, along);
+        torque = torque + twist;
+        power = power + (dot(along, to_slider(axes, velocity)) + dot(twist, turning.omega));
+        crank_torque = crank_torque + numbers.scaled(load.crank_torque);
+    }
+
+    /// −a of the ground on the masses of slider and rod, the rod's at its ends as its weight.
+    SLIDEWAY_FN void add_ground(Vec3<Real> const& acceleration, Vec3<Real> const& velocity, Real crank_angle, SliderParameters<Real> const& p) {
+        Real const at_slider = fma(p.rod_mass, p.rod_mass_center, p.slider_mass), at_pin = fnma(p.rod_mass, p.rod_mass_center, p.rod_mass);
+        auto const on_slider = negated(at_slider) * acceleration;
+        force = force + on_slider;
+        ground_power = ground_power + dot(on_slider, velocity);
+        auto const crank = sincos(crank_angle);
+        Real const lever = fms(crank.sin, acceleration.x, crank.cos * acceleration.y), of_pin = at_pin * p.crank_length * lever;
+        pin_torque = pin_torque + of_pin;
+        crank_torque = crank_torque + of_pin;
+        crank_weight = fma(p.crank_moment, lever, crank_weight);
+    }
+
+    SLIDEWAY_FN void add_element(Load const& load, LoadNumbers<Real> const& numbers, Vec3<Real> const& position, Vec3<Real> const& velocity,
+                                 SliderTurning<Real> const& turning) {
+        auto const point = numbers.as_given(load.point);
+        auto const arm = from_slider(turning.axes, point);
+        auto const element = ElementForce<Real>::of(load, numbers, position + arm, velocity + cross(turning.spin, arm));
+        force = force + element.force;
+        torque = torque + cross(point, to_slider(turning.axes, element.force));
+        potential = potential + element.potential;
+        spring_loss = spring_loss + element.loss;
     }
 };
 

@@ -20,7 +20,7 @@ template <class Real> struct SliderParameters {
     Real rod_length;            // L [m]
     Real m_aa, m_ab;            // rod's mass matrix between its ends [kg]
     Real mass;                  // m = M + m_BB [kg]
-    Real gravity_x, gravity_y;  // g⃗ [m/s²]
+    Real gravity_x, gravity_y, gravity_z;  // g⃗ [m/s²]
     Real weighing_mass;         // M + m_r f_r: whose weight acts on B [kg]
     // carriage
     Real carriage_speed;  // v [m/s]
@@ -97,9 +97,10 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     p.m_aa = in.rod_mass * (1 - center) * (1 - center) + spin_mass;
     p.m_ab = in.rod_mass * center * (1 - center) - spin_mass;
     p.mass = in.slider_mass + m_bb;
-    auto const slope = sincos(in.inclination);
+    auto const slope = sincos(in.inclination), across = sincos(in.cross_inclination);
     p.gravity_x = -in.gravity * slope.sin;
-    p.gravity_y = -in.gravity * slope.cos;
+    p.gravity_y = -in.gravity * slope.cos * across.cos;
+    p.gravity_z = -in.gravity * slope.cos * across.sin;
     p.weighing_mass = in.slider_mass + in.rod_mass * center;
     p.carriage_speed = in.carriage_speed;
     p.stroke_time = in.stroke / in.carriage_speed;

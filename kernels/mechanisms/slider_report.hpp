@@ -48,7 +48,7 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
         fill_slider(u, turning, p);
         Real const zero(0.0), half(0.5);
         auto const& w = turning.omega;
-        Vec3<Real> gravity{p.gravity_x, p.gravity_y, zero};
+        Vec3<Real> gravity{p.gravity_x, p.gravity_y, p.gravity_z};
         Vec3<Real> momentum{p.inertia.x * w.x, p.inertia.y * w.y, p.inertia.z * w.z};
         Real const kinetic = half * fma(p.slider_mass, dot(u.velocity, u.velocity), dot(w, momentum));
         this->energy = fnma(p.slider_mass, dot(gravity, u.position), kinetic) + contact.potential;
@@ -60,9 +60,9 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
     SLIDEWAY_CARD_CALL void fill_crank(PointMotion<Real> const& a, PointMotion<Real> const& b, Real d,
                                 SliderTurning<Real> const& turning, Vec3<Real> const& contact_force,
                                 SliderParameters<Real> const& p, bool powers_alone) {
-        Real const zero(0.0), half(0.5), one(1.0);
+        Real const half(0.5), one(1.0);
         auto const& omega = turning.omega;
-        Vec3<Real> gravity{p.gravity_x, p.gravity_y, zero};
+        Vec3<Real> gravity{p.gravity_x, p.gravity_y, p.gravity_z};
 
         // Force of the crank pin on the rod: F_A = m_AA a_A + m_AB a_B − m_r (1 − f_r) g⃗ + Λ with
         // Λ = M a_B − F_c − M g⃗ + m_BB a_B + m_AB a_A − m_r f_r g⃗ (model.md 6).

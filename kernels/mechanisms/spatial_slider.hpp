@@ -129,7 +129,7 @@ private:
         [[maybe_unused]] SliderLoads<Real> loads;
         if constexpr (loaded) {
             loads = SliderLoads<Real>::of(block.loads, t, crank_of<Guide>(t, s, p, drive), position, velocity, turning, p);
-            if constexpr (requires { guide.turn(loads.crank_torque); }) guide.turn(loads.crank_torque);
+            if constexpr (requires { guide.turn(loads.turning()); }) guide.turn(loads.turning());
             force = force + loads.force;
             wrench.torque = wrench.torque + from_slider(motion.axes, loads.torque);
         }

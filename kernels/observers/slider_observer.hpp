@@ -19,9 +19,9 @@ public:
     using Report = Report_<Real>;
     using Places = QuantityPlaces<Keeper::mechanism, Report::apices>;
     static constexpr int columns = quantity_columns;  // of a member's row
-    /// Integrands: |power| of crank and loads and the springs' power, of which a law that switches keeps books, then those of the energy audit, of which that of loads
-    /// is the last, then those of other quantities.
-    static constexpr int first_audited = 2, audit_integrals = Places::audit_integrals;
+    /// Integrands: |power| of what drives and the contacts' springs' power, of which a law that switches keeps books, then those of the energy audit, of
+    /// which those of loads are the last, then those of other quantities.
+    static constexpr int first_audited = 2, audit_integrals = Places::audit_integrals, of_loads = 3;
     static constexpr int integrals = Places::integrals + first_audited;
 
     /// What a quantity is the peak, mean or integral of: a line each.
@@ -35,6 +35,8 @@ public:
         else if constexpr (q == friction_loss) return r.contact.friction_power;
         else if constexpr (q == damping_loss) return r.contact.damping_power;
         else if constexpr (q == load_work) return r.load_power;
+        else if constexpr (q == ground_work) return r.ground_power;
+        else if constexpr (q == spring_loss) return r.spring_loss;
         else if constexpr (q == peak_crank_torque || q == rms_crank_torque) return r.drive_torque;
         else if constexpr (q == peak_position_error || q == rms_position_error) return r.position_error;
         else if constexpr (q == peak_rod_angular_velocity || q == rms_rod_angular_velocity) return r.rod_spin;
@@ -77,7 +79,7 @@ public:
         for_each_quantity([&]<Quantity q>(Named<q>) {
             if constexpr (Places::is_audited(q)) values[place_of<q>] = value<q>(r, AtStage{}, 0);
         });
-        values[turnover] = abs(r.crank_power) + abs(r.load_power);
+        values[turnover] = (abs(r.crank_power) + abs(r.load_power)) + abs(r.ground_power);
         values[springs] = r.contact.elastic_power;
     }
 
@@ -194,8 +196,8 @@ public:
         Real const crank_work = integral_[place_of<Quantity::crank_work>];
         Real const friction_loss = integral_[place_of<Quantity::friction_loss>];
         Real const damping_loss = integral_[place_of<Quantity::damping_loss>];
-        Real const load_work = integral_[place_of<Quantity::load_work>];
-        return {energy_ - start_energy_, crank_work, friction_loss, damping_loss, load_work, integral_[turnover],
+        Real const works = integral_[place_of<Quantity::load_work>] + integral_[place_of<Quantity::ground_work>];
+        return {energy_ - start_energy_, crank_work, friction_loss, damping_loss, works, integral_[place_of<Quantity::spring_loss>], integral_[turnover],
                 largest_potential_,      made_,      astray_,       exchanged_};
     }
 
@@ -214,7 +216,7 @@ public:
 protected:
     static constexpr int turnover = 0, springs = 1;
     template <Quantity q> static constexpr int place_of = first_audited + Places::template integral_of<q>;
-    static_assert(place_of<Quantity::load_work> == powers - 1);
+    static_assert(place_of<Quantity::load_work> == powers - of_loads && place_of<Quantity::spring_loss> == powers - 1);
 
     /// A quantity of one lane.  @param mean 1/t, of the time integrated.
     template <Quantity q> SLIDEWAY_HD double result(int index, int column, double mean) const {
@@ -255,7 +257,8 @@ protected:
     SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, Report const& r, bool switches) {
         Real const zero(0.0);
         using enum Quantity;
-        Real const supplied = (integral[place_of<crank_work>] - integral[place_of<friction_loss>] - integral[place_of<damping_loss>]) + integral[place_of<load_work>];
+        Real const supplied = (integral[place_of<crank_work>] - integral[place_of<friction_loss>] - integral[place_of<damping_loss>]) +
+                              ((integral[place_of<load_work>] + integral[place_of<ground_work>]) - integral[place_of<spring_loss>]);
         Real made = fnma(h, supplied, r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
         if (switches) {
@@ -271,7 +274,7 @@ protected:
     }
 
     SLIDEWAY_FN void take_peaks(Mask<Real> taken, Report const& r, Real const* state) {
-        largest_potential_ = select(taken, max(r.contact.potential, largest_potential_), largest_potential_);
+        largest_potential_ = select(taken, max(r.contact.potential + r.spring_potential, largest_potential_), largest_potential_);
         Real values[peaks];
         tell_peaks(r, state, values);
         raise_peaks(taken, values);

@@ -7,7 +7,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// What an observer of events alone leaves at its plainest: it looks at no accepted step and asks for no integral.
 template <class Real> struct PlainObserver {
-    static constexpr int integrals = 0, first_audited = 0, audit_integrals = 0, powers = 0, peaks = 0;
+    static constexpr int integrals = 0, first_audited = 0, audit_integrals = 0, of_loads = 0, powers = 0, peaks = 0;
     static constexpr Selection audit_quantities = 0;
 
     SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }

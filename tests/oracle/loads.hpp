@@ -1,4 +1,4 @@
-// Loads on slider and crank, as the textbook writes them (model.md 14).
+// Loads, springs, stops and the motion of the ground, as the textbook writes them (model.md 14).
 #pragma once
 
 #include "numbers.hpp"
@@ -18,7 +18,10 @@ struct LoadSum {
     Vector3 force = Vector3::Zero();   // on the slider, inertial frame [N]
     Vector3 torque = Vector3::Zero();  // about the slider's centre, inertial frame [N m]
     Real crank_torque = 0;             // [N m]
-    Real slider_power = 0;             // Σ F · v of the points they act at, and of the torques [W]
+    Real slider_power = 0;             // Σ F · v of the points they act at, and of the torques; not of springs and stops [W]
+    Vector3 ground = Vector3::Zero();  // acceleration of the ground [m/s²]
+    Real potential = 0;                // of springs and stops [J]
+    Real spring_loss = 0;              // what their dampers take [W]
 };
 /// @param pose, pose_rate of the slider: 4 × 4 matrices
 LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, Matrix4 const& pose, Matrix4 const& pose_rate);

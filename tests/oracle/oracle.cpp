@@ -61,6 +61,12 @@ Placed placed(Inputs const& in, Parts const& parts, CrankMotion const& turning, 
     throw std::invalid_argument("oracle: the planar mechanism has an oracle of its own");
 }
 
+/// What the ground's acceleration does to the rod [W].
+Real rod_ground_power(Inputs const& in, Kinematics const& k, Vector3 const& ground) {
+    Real const share = in.rod_mass_center;
+    return -in.rod_mass * ground.dot((1 - share) * k.pin_velocity + share * k.slider.velocity);
+}
+
 /// A crank that turns freely: J θ'' = T + (r/2 × m_c g) + T_load − (torque that it gives away).
 struct Turning {
     Inputs const& in;
@@ -150,22 +156,27 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     Vector3 const force = joint.force + loads.force;
 
     Real const beta = in.inclination;
-    Vector3 const gravity = -Real(in.gravity) * Vector3(std::sin(beta), std::cos(beta), 0);
-    Vector3 acceleration = force / in.slider_mass + gravity;
-    Real energy = slider_energy(in, slider, gravity) + joint.potential;
+    Real const gamma = in.cross_inclination;
+    Vector3 const gravity = -Real(in.gravity) * Vector3(std::sin(beta), std::cos(beta) * std::cos(gamma), std::cos(beta) * std::sin(gamma));
+    // What a mass feels on ground that is accelerated.
+    Vector3 const felt = gravity - loads.ground;
+    Vector3 acceleration = force / in.slider_mass + felt;
+    Real energy = slider_energy(in, slider, gravity) + joint.potential + loads.potential;
+    Real ground_power = -in.slider_mass * loads.ground.dot(slider.velocity);
     Result result;
-    Turning const free{in, parts, gravity, motor_torque(in, parts, turning, t), loads.crank_torque};
+    Turning const free{in, parts, felt, motor_torque(in, parts, turning, t), loads.crank_torque};
     switch (parts.mechanism) {
         case Mechanism::slider_crank_motor: {
             turning.acceleration = free.acceleration([&](Real by) {
                 auto const k = kinematics_of(in, {turning.angle, turning.speed, by}, state);
-                return k.pin.cross(solve_motion(in, k, gravity, force).pin_force).z();
+                return k.pin.cross(solve_motion(in, k, felt, force).pin_force).z();
             }, crank.pin);
             crank = kinematics_of(in, turning, state);
-            Motion const motion = solve_motion(in, crank, gravity, force);
+            Motion const motion = solve_motion(in, crank, felt, force);
             acceleration = motion.slider_acceleration;
             energy += rod_energy(in, crank, gravity);
-            report_crank(in, crank, motion, gravity, result);
+            report_crank(in, crank, motion, felt, result);
+            ground_power += rod_ground_power(in, crank, loads.ground);
             break;
         }
         case Mechanism::scotch_yoke_motor: {
@@ -178,10 +189,11 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
             break;
         }
         case Mechanism::slider_crank: {
-            Motion const motion = solve_motion(in, crank, gravity, force);
+            Motion const motion = solve_motion(in, crank, felt, force);
             acceleration = motion.slider_acceleration;
             energy += rod_energy(in, crank, gravity);
-            report_crank(in, crank, motion, gravity, result);
+            report_crank(in, crank, motion, felt, result);
+            ground_power += rod_ground_power(in, crank, loads.ground);
             if (parts.drive.by != slideway::DriveBy::profile) break;
             // What accelerates the crank itself.
             result.power_crank += static_cast<double>(free.inertia() * turning.acceleration * turning.speed);
@@ -208,16 +220,21 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     }
     Real const of_crank = loads.crank_torque * turning.speed;
     result.power_load = static_cast<double>(loads.slider_power + of_crank);
+    result.loss_springs = static_cast<double>(loads.spring_loss);
     if (parts.drive.turns_freely()) {
         result.derivative[10] = state[11];
         result.derivative[11] = static_cast<double>(turning.acceleration);
         result.power_crank = static_cast<double>(free.motor * turning.speed);
         energy += free.inertia() * turning.speed * turning.speed / 2;
-        if (free.has_crank()) energy -= free.crank_mass() * gravity.dot(crank.pin) / 2;
+        if (free.has_crank()) {
+            energy -= free.crank_mass() * gravity.dot(crank.pin) / 2;
+            ground_power -= free.crank_mass() * loads.ground.dot(crank.pin_velocity) / 2;
+        }
         result.crank_torque_with_weight = static_cast<double>(free.motor);
     } else {
         result.power_crank -= static_cast<double>(of_crank);
     }
+    result.power_ground = static_cast<double>(ground_power);
     result.energy = static_cast<double>(energy);
 
     Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);

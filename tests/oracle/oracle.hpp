@@ -28,6 +28,8 @@ struct Result {
     State derivative{};
     double power_crank = 0;                          // F_A · v_A, or F_x vx of a driven slider [W]
     double power_load = 0;                           // of the scene's loads [W]
+    double power_ground = 0;                         // of the ground's motion, the crank's own mass left aside [W]
+    double loss_springs = 0;                         // of the dampers of springs and stops [W]
     double power_friction = 0;                       // loss, -Σ F_t · v_t [W]
     double power_damping = 0;                        // loss, Σ (F - F_elastic) δ' [W]
     std::array<double, 8> pen_y{}, pen_z{};          // δ [m], > 0 in contact
@@ -37,7 +39,7 @@ struct Result {
     std::array<double, 8> slip_y{}, slip_z{};        // |v_t| [m/s], of every pair, touching or not
     int surfaces = 0, lines = 0, points = 0;
     std::array<FaceKind, face_count> faces{};
-    double energy = 0;                    // E of section 8 [J], contact potential included
+    double energy = 0;                    // E of section 8 [J], potentials included
     double contact_potential = 0;         // U [J]
     double crank_torque = 0;              // (A x F_A)_z [N m], as in the golden tables; 0 without a crank
     double crank_torque_with_weight = 0;  // with the weight of the crank itself

@@ -100,6 +100,16 @@ PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_spe
                             {in.slider_mass, in.slider_inertia_z, 2, point_of(s, crank, rod, none)}};
     Vector2 const gravity = -Real(in.gravity) * Vector2(std::sin(Real(in.inclination)), std::cos(Real(in.inclination)));
 
+    Point const& hole = bodies[2].centre;
+    Vector2 const speed_of_hole = hole.jacobian * rates;
+    Matrix4 pose = Matrix4::Identity(), pose_rate = Matrix4::Zero();
+    Real const cosine = std::cos(Real(s[2])), sine = std::sin(Real(s[2]));
+    pose.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
+    pose_rate.topLeftCorner<2, 2>() << -sine * rates[2], -cosine * rates[2], cosine * rates[2], -sine * rates[2];
+    pose.topRightCorner<2, 1>() = hole.place, pose_rate.topRightCorner<2, 1>() = speed_of_hole;
+    auto const loads = load_sum(in, parts_, {s[0], time, hole.place.x(), speed_of_hole.x(), s[3]}, pose, pose_rate);
+    Vector2 const ground = loads.ground.head<2>();
+
     PlanarResult result;
     // M q'' = Σ m Jᵀ (g - J' q') + Σ J_cornerᵀ f + the drive's torque on θ1.
     Matrix3 mass = Matrix3::Zero();
@@ -108,7 +118,8 @@ PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_spe
         Jacobian const& j = body.centre.jacobian;
         mass += body.mass * j.transpose() * j;
         mass(body.angle, body.angle) += body.inertia;
-        load += body.mass * j.transpose() * (gravity - body.centre.centripetal);
+        load += body.mass * j.transpose() * (gravity - ground - body.centre.centripetal);
+        result.power_ground -= body.mass * ground.dot(j * rates);
         Real const own_rate = rates[body.angle];
         result.energy += (body.mass * (j * rates).squaredNorm() + body.inertia * own_rate * own_rate) / 2 -
                          body.mass * gravity.dot(body.centre.place);
@@ -128,17 +139,10 @@ PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_spe
         result.power_friction -= drag * velocity.x();
     }
     count_modes(result.depth, result);
-    Point const& hole = bodies[2].centre;
-    Vector2 const speed_of_hole = hole.jacobian * rates;
-    Matrix4 pose = Matrix4::Identity(), pose_rate = Matrix4::Zero();
-    Real const cosine = std::cos(Real(s[2])), sine = std::sin(Real(s[2]));
-    pose.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
-    pose_rate.topLeftCorner<2, 2>() << -sine * rates[2], -cosine * rates[2], cosine * rates[2], -sine * rates[2];
-    pose.topRightCorner<2, 1>() = hole.place, pose_rate.topRightCorner<2, 1>() = speed_of_hole;
-    auto const loads = load_sum(in, parts_, {s[0], time, hole.place.x(), speed_of_hole.x(), s[3]}, pose, pose_rate);
     load += hole.jacobian.transpose() * loads.force.head<2>() + Vector3(loads.crank_torque, 0, loads.torque.z());
-    result.power_load = loads.force.head<2>().dot(speed_of_hole) + loads.torque.z() * rates[2] + loads.crank_torque * rates[0];
-    result.energy += result.contact_potential + Real(in.drive_inertia) * rates[0] * rates[0] / 2;
+    result.power_load = loads.slider_power + loads.crank_torque * rates[0];
+    result.loss_springs = loads.spring_loss;
+    result.energy += loads.potential + result.contact_potential + Real(in.drive_inertia) * rates[0] * rates[0] / 2;
     mass(0, 0) += in.drive_inertia;
     bool const free = parts_.drive.turns_freely();
     Real const motor = torque + detail::motor_torque(in, parts_, {s[0], s[3], 0}, time);

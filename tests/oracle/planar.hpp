@@ -28,6 +28,8 @@ struct PlanarResult {
     long double drive_torque = 0;                       // what holds the crank's speed [N m]; 0 of a free crank
     long double power_drive = 0;                        // its power [W]
     long double power_load = 0;                         // of the scene's loads [W]
+    long double power_ground = 0;                       // of the ground's motion [W]
+    long double loss_springs = 0;                       // of the dampers of springs and stops [W]
     long double power_friction = 0, power_damping = 0;  // losses [W]
 };
 

@@ -34,10 +34,11 @@ inline std::string error_of(std::string_view text, Overrides const& overrides = 
 
 inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
-/// Every mechanism, those with eight apices under every law.
+/// Every mechanism as a scene names it, those with eight apices under every law.
 inline std::vector<Parts> mechanisms_and_laws() {
     std::vector<Parts> all;
     for (std::size_t i = 0; i < mechanisms().size(); ++i) {
+        if (mechanisms()[i].driven_form != nullptr) continue;
         Parts parts;
         parts.mechanism = static_cast<Mechanism>(i);
         all.push_back(parts);
@@ -53,9 +54,19 @@ inline std::string name_of(Key const& key, Parts const& parts) {
     return std::string(key.name) + " of " + info(parts.mechanism).name + ", " + std::string(info(parts.law).name);
 }
 
+/// The slider-crank under every drive.
+inline std::vector<Parts> drives() {
+    Mechanism const turning = *turning_form(Mechanism::slider_crank);
+    return {{.mechanism = turning, .drive = {.by = DriveBy::nothing}},
+            {.mechanism = turning, .drive = {.by = DriveBy::torque}},
+            {.mechanism = Mechanism::slider_crank, .drive = {.by = DriveBy::profile}}};
+}
+
 /// The first of them for which a key counts.  @throws std::logic_error if it counts for none
 inline Parts parts_with(Key const& key) {
-    for (Parts const& parts : mechanisms_and_laws()) {
+    auto all = mechanisms_and_laws();
+    std::ranges::copy(drives(), std::back_inserter(all));
+    for (Parts const& parts : all) {
         if (counts_for(key, parts)) return parts;
     }
     throw std::logic_error(std::string(key.name) + " counts for no mechanism and law");

@@ -130,5 +130,53 @@ TEST(Jobs, ExportHasTheNumbersOfTheResult) {
     std::filesystem::remove_all(folder);
 }
 
+constexpr double weight = 9.81;  // of a kilogram [N]
+
+/// e of a = χ v: a (1 + e) = ln[(1 + a)/(1 − e a)].
+double restitution_of(double a) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 100; ++i) {
+        double const e = 0.5 * (low + high);
+        (e * a < 1 && a * (1 + e) - std::log((1 + a) / (1 - e * a)) > 0 ? low : high) = e;
+    }
+    return low;
+}
+
+TEST(Jobs, EndStopsTakeWhatFrictionLeavesThem) {
+    std::string const alike = "--set study.members=4 --set study.verify=0 --set 'study.vary={\"initial.z\"={dist=\"const\",value=0}}'";
+    double const mass = 0.8, friction = 0.1 * mass * weight;
+    // It meets the buffer, comes back and slides to rest before it meets the other one.
+    double const before = 0.5 * mass * 0.5 * 0.5 - friction * 0.05, speed = std::sqrt(2 * before / mass), e = restitution_of(7.7 * speed);
+    double const lost = mean_of("end_stops.toml", alike, "spring_loss");
+    EXPECT_LT(e * e * before / friction, 0.1);
+    // Friction takes its share on the buffer too, over twice the depth at most.
+    EXPECT_LT(lost, (1 - e * e) * before);
+    EXPECT_GT(lost, (1 - e * e) * (before - 2 * friction * speed * std::sqrt(mass / 1e5)));
+    EXPECT_NEAR(mean_of("end_stops.toml", alike, "energy_change"), -0.5 * mass * 0.5 * 0.5, 1e-6);
+    EXPECT_NEAR(mean_of("end_stops.toml", alike, "friction_loss"), 0.5 * mass * 0.5 * 0.5 - lost, 1e-6);
+}
+
+TEST(Jobs, ShakenSpringTakesThePowerOfItsResonanceCurve) {
+    auto const alike = [](int seconds) {
+        return "--set study.members=4 --set study.verify=0 --set study.duration=" + std::to_string(seconds) +
+               " --set 'study.vary={\"initial.z\"={dist=\"const\",value=0}}'";
+    };
+    // Once it swings evenly, with the amplitude a/|k/m − w² + i w c/m|.
+    double const m = 0.8, k = 800, c = 2.5, w = 2 * std::numbers::pi * 4, amplitude = 1.5 / std::hypot(k / m - w * w, w * c / m);
+    double const power = 0.5 * c * w * w * amplitude * amplitude;
+    for (char const* const quantity : {"ground_work", "spring_loss"}) {
+        double const late = mean_of("shaken_spring.toml", alike(10), quantity) - mean_of("shaken_spring.toml", alike(9), quantity);
+        EXPECT_NEAR(late, power, 1e-3 * power) << quantity;
+    }
+}
+
+TEST(Jobs, LeaningWayPressesOnTwoFaces) {
+    std::string const alike = "--set study.members=4 --set study.verify=0 --set 'study.vary={\"initial.vy\"={dist=\"const\",value=0}}'";
+    double const pi = std::numbers::pi, mass = 7800 * 0.04 * 0.02 * 0.03, press = mass * weight * std::cos(pi / 6) * 2 * std::sqrt(0.5);
+    double const pull = mass * weight * std::sin(pi / 6) - 0.15 * press, way = 0.5 * pull / mass * 0.5 * 0.5;
+    EXPECT_NEAR(mean_of("leaning_way.toml", alike, "mean_normal_force"), press, 1e-6 * press);
+    EXPECT_NEAR(mean_of("leaning_way.toml", alike, "friction_loss"), 0.15 * press * way, 1e-4 * press * way);
+}
+
 }  // namespace
 }  // namespace slideway::jobs_test

@@ -8,55 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "kernels/laws/list.hpp"
-#include "kernels/mechanisms/list.hpp"
-#include "kernels/members/complete_inputs.hpp"
-#include "tests/support/ensemble.hpp"
-#include "tests/support/load_table.hpp"
+#include "tests/support/loaded_member.hpp"
 
 namespace slideway::loads_test {
 namespace {
 
 using std::numbers::pi;
+using testing::afloat;
+using testing::every_mechanism;
+using testing::Loaded;
+using testing::options;
 using testing::Pieces;
-using testing::put_load_number;
-
-/// Loads of a member, whose numbers are put into its inputs one after the other.
-struct Loaded {
-    Inputs in;
-    std::vector<Load> loads;
-    int numbers = 0;
-
-    int number(double value) { return put_load_number(in, numbers, value); }
-    void put(int (&places)[3], std::array<double, 3> const& values) {
-        for (std::size_t i = 0; i < 3; ++i) places[i] = number(values[i]);
-    }
-    LoadList list() const { return {loads.data(), static_cast<int>(loads.size())}; }
-};
-
-testing::RunOptions options(Loaded const& loaded, Mechanism mechanism, double seconds, double tolerance) {
-    testing::RunOptions o;
-    o.parts.law = Law::conservative;
-    o.parts.mechanism = mechanism;
-    o.parts.loads = loaded.list();
-    o.settings.rtol = o.settings.atol = tolerance;
-    o.settings.end_time = seconds;
-    return o;
-}
-
-testing::EnsembleResult run(Loaded const& loaded, testing::RunOptions o) {
-    auto const r = testing::run(best_isa(), o, {complete_inputs(loaded.in, info(o.parts.mechanism))});
-    EXPECT_EQ(r.records[0].status, Status::finished);
-    return r;
-}
-
-/// A slider in weightless flight within a joint that it does not reach.
-Inputs afloat() {
-    Inputs in;
-    in.gravity = 0;
-    in.clearance_y = in.clearance_z = 5e-3;
-    return in;
-}
+using testing::run;
 
 TEST(Loads, PushAFreeSliderAlongTheAxesOfTheGround) {
     Loaded l{afloat(), {{}}};
@@ -136,7 +99,7 @@ TEST(Loads, OverTimeGiveTheImpulseOfTheirTable) {
 TEST(Loads, DriveTheAuditOfEveryMechanismToRounding) {
     // Over the crank's angle, time and x, with and without the slider's turning; contacts too.
     Pieces const wave({{0, 1, 2, 0, 0}, {0.5, 2, 0, -8, 0}, {1, 0, -1, 0, 1}}, 2, true);
-    for (Mechanism const mechanism : {Mechanism::slider_crank, Mechanism::scotch_yoke, Mechanism::carriage, Mechanism::free_slider, Mechanism::planar_slider_crank}) {
+    for (Mechanism const mechanism : every_mechanism) {
         for (bool const rigid : {false, true}) {
             SCOPED_TRACE(std::string(info(mechanism).name) + (rigid ? " rigid" : ""));
             Loaded l{{}, {{}, {}, {}}};

@@ -55,7 +55,8 @@ TEST_F(SceneDrives, OfTorqueHaveTheCrankInTheirState) {
     Scene const again = parse_scene(resolved, "again.toml");
     EXPECT_EQ(again.parts, press.parts);
     EXPECT_EQ(resolved_toml(again), resolved);
-    EXPECT_EQ(scene("planar_slider_crank", "[drive]\nkind = \"free\"\n").parts.mechanism, Mechanism::planar_slider_crank);
+    EXPECT_EQ(parse_scene("schema = 1\n[mechanism]\nkind = \"planar_slider_crank\"\n[drive]\nkind = \"free\"\n", "planar.toml").parts.mechanism,
+              Mechanism::planar_slider_crank);
 }
 
 TEST_F(SceneDrives, RefuseWhatTheirKindHasNot) {

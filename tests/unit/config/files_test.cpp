@@ -274,7 +274,7 @@ TEST(SceneFiles, EveryMechanismHasOne) {
     for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
         if (entry.path().extension() == ".toml") found.insert(read_scene(entry.path().string()).parts.mechanism);
     }
-    EXPECT_EQ(found.size(), mechanisms().size());
+    EXPECT_EQ(found.size(), mechanism_kinds().size());
 }
 
 TEST(SceneFiles, RunUnderEveryLaw) {

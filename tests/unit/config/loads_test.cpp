@@ -12,6 +12,7 @@
 
 #include "host/config/loads.hpp"
 #include "kernels/loads/table_value.hpp"
+#include "kernels/members/complete_inputs.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
@@ -51,7 +52,7 @@ void expect_refused(std::string const& scene, std::string_view words) {
 double number(Scene const& scene, std::size_t row, std::string_view name) {
     Load load = scene.loads->load(row);
     for (LoadNumber const& one : load_numbers()) {
-        if (one.name == name) return scene.inputs.*load_inputs[one.place(load)];
+        if (one.kind == load.kind && one.name == name) return scene.inputs.*load_inputs[one.place(load)];
     }
     return std::nan("");
 }
@@ -107,7 +108,7 @@ TEST_F(SceneLoadFiles, AreReadAgainFromTheResolvedScene) {
     EXPECT_EQ(resolved_toml(again), resolved);
     EXPECT_EQ(number(again, 0, "force_x"), -1);
     EXPECT_NEAR(table_point(again.parts.loads.loads[0].table, 2 * std::numbers::pi / 3).value, 5, 1e-12);
-    EXPECT_EQ(again.loads->rows()[1].name, "pull");
+    EXPECT_EQ(again.loads->rows()[1].name, "load.pull");
     // Another table is another scene.
     file("crank_angle [deg], pressure\n0, 1\n120, 5.0001\n360, 1\n");
     EXPECT_NE(resolved_toml(scene_of(text)), resolved);
@@ -130,7 +131,100 @@ TEST(SceneLoads, ErrorsAreOneLine) {
              Bad{"[mechanism]\nkind = \"carriage\"\n[load.gas]\non = \"crank\"\ntorque = 1\n", "a carriage has no crank"},
              Bad{"[mechanism]\nkind = \"planar_slider_crank\"\n[load.gas]\nforce_z = 1\n", "load.gas.force_z has no meaning"},
              Bad{"[load.a]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\npoint_z=0\n"
-                 "[load.b]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\n", "all loads of a scene have sixteen numbers at most"},
+                 "[load.b]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\n", "have sixteen numbers at most together"},
+         }) {
+        expect_refused(std::string("schema = 1\n") + bad.text, bad.words);
+    }
+}
+
+TEST(SceneLoads, SpringsAndStopsAreNumbersToo) {
+    std::string const text = R"(schema = 1
+[mechanism]
+kind = "free_slider"
+[spring.return]
+along = "x"
+anchor_x = "-80 mm"
+stiffness = "2 N/mm"
+rest_length = "80 mm"
+[spring.side]
+anchor_y = 0.1
+point_x = "10 mm"
+preload = 3
+[stop.front]
+blocks = "-x"
+position = "50 mm"
+stiffness = 1e5
+dissipation = 0.5
+[study]
+members = 3
+[study.vary]
+"spring.return.stiffness" = { dist = "unif", low = 1000, high = 3000 }
+)";
+    Scene const scene = scene_of(text, {{"stop.front.damping", "\"3 N s/mm\""}});
+    ASSERT_EQ(scene.parts.loads.count, 3);
+    EXPECT_EQ(number(scene, 0, "anchor_x"), -0.08);
+    EXPECT_EQ(number(scene, 0, "stiffness"), 2000);
+    EXPECT_EQ(number(scene, 1, "preload"), 3);
+    EXPECT_EQ(number(scene, 2, "damping"), 3000);
+    Load const* const loads = scene.parts.loads.loads;
+    EXPECT_TRUE(loads[0].kind == LoadKind::spring && loads[0].along);
+    EXPECT_TRUE(loads[1].kind == LoadKind::spring && !loads[1].along);
+    EXPECT_TRUE(loads[2].kind == LoadKind::stop && loads[2].side == -1);
+    EXPECT_EQ(resolved_toml(scene_of(resolved_toml(scene))), resolved_toml(scene));
+    // A third of the time on the stop.
+    EXPECT_LE(scene.integrator.max_step, std::sqrt(complete_inputs(scene.inputs).slider_mass / 1e5));
+    EXPECT_GT(scene_of(text, {{"stop.front.stiffness", "1"}}).integrator.max_step, 5e-4);
+    EXPECT_LT(scene_of(text, {{"stop.front.stiffness", "1e9"}}).integrator.max_step, 2e-5);
+}
+
+TEST_F(SceneLoadFiles, OfTheGroundsMotionHaveUpToThreeColumns) {
+    auto const ground = [&](std::string const& csv, std::string const& more = "") {
+        return "schema = 1\n[ground_motion]\ntable = \"" + file(csv) + "\"\n" + more;
+    };
+    std::string const three = "time [ms], az [cm/s2], ax\n0, 100, 0\n10, 0, 3\n20, 100, 0\n";
+    Scene const scene = scene_of(ground(three, "scale_z = 2\nrepeats = true\ninterpolation = \"linear\"\n"));
+    ASSERT_EQ(scene.parts.loads.count, 2);
+    EXPECT_EQ(number(scene, 0, "scale_x"), 1);
+    EXPECT_EQ(number(scene, 1, "scale_z"), 2);
+    EXPECT_NEAR(table_point(scene.parts.loads.loads[0].table, 0.035).value, 1.5, 1e-12);
+    EXPECT_NEAR(table_point(scene.parts.loads.loads[1].table, 0.005).value, 0.5, 1e-12);
+    EXPECT_EQ(resolved_toml(scene_of(resolved_toml(scene))), resolved_toml(scene));
+    EXPECT_EQ(number(scene_of(ground(three), {{"ground_motion.scale_x", "7"}}), 0, "scale_x"), 7);
+    // In a plane az does not count.
+    EXPECT_EQ(scene_of(ground(three) + "[mechanism]\nkind = \"planar_slider_crank\"\n").parts.loads.count, 1);
+    struct Bad { std::string csv, more; char const* words; };
+    for (Bad const& bad : {
+             Bad{three, "scale_y = 1\n", "the table has no column ay"},
+             Bad{three, "gain = 1\n", "ground_motion.gain is no key"},
+             Bad{"time, a\n0, 1\n1, 1\n", "", "the table has no column of an acceleration"},
+             Bad{"t, ax\n0, 1\n1, 1\n", "", "the table has no column time"},
+             Bad{"time, ax [m]\n0, 1\n1, 1\n", "", "its unit is none of m/s2"},
+             Bad{"time, ax\n0, 1\n0, 1\n", "", "the place stands twice"},
+             Bad{"time, ax\n0, 1\n1, 2\n", "repeats = true\n", "the period does not close"},
+         }) expect_refused(ground(bad.csv, bad.more), bad.words);
+    expect_refused("schema = 1\n[ground_motion]\n", "ground_motion.table is missing");
+}
+
+TEST(SceneLoads, ElementsThatCannotBeAreOneLine) {
+    struct Bad { char const *text, *words; };
+    for (Bad const& bad : {
+             Bad{"[spring.a]\nstiffness = 3\n", "spring.a.anchor_x is missing"},
+             Bad{"[spring.a]\nanchor_x = 3\n", "spring.a.stiffness is missing"},
+             Bad{"[spring.a]\nanchor_x = 3\nstiffness = 2\n", "spring.a.rest_length is missing"},
+             Bad{"[spring.a]\nanchor_x = 3\nalong = \"x\"\nstiffness = -2\n", "scene.toml:5: spring.a.stiffness is -2"},
+             Bad{"[spring.a]\nanchor_y = 3\nalong = \"x\"\nstiffness = 2\n", "spring.a.anchor_y is 3 (a spring along x"},
+             Bad{"[spring.a]\nanchor_x = 3\nalong = \"y\"\n", "spring.a.along is \"y\""},
+             Bad{"[spring.a]\nforce_x = 3\n", "spring.a.force_x is no key of a spring"},
+             Bad{"[spring.A]\nanchor_x = 3\n", "is no name of a spring"},
+             Bad{"[spring]\na = 3\n", "spring.a is 3 (a spring is a table)"},
+             Bad{"[mechanism]\nkind = \"planar_slider_crank\"\n[spring.a]\nanchor_z = 3\n", "spring.a.anchor_z has no meaning"},
+             Bad{"[stop.a]\nposition = 3\n", "stop.a.blocks is missing"},
+             Bad{"[stop.a]\nblocks = \"+x\"\n", "stop.a.position is missing"},
+             Bad{"[stop.a]\nblocks = \"+x\"\nposition = 1\n", "stop.a.stiffness is missing"},
+             Bad{"[stop.a]\nblocks = \"+x\"\nposition = 1\nstiffness = 0\n", "stop.a.stiffness is 0"},
+             Bad{"[stop.a]\nblocks = \"up\"\nposition = 1\nstiffness = 1\n", "stop.a.blocks is \"up\""},
+             Bad{"[stop.a]\nblocks = \"+x\"\nposition = 1\nstiffness = 1\ndissipation = -1\n", "stop.a.dissipation is -1"},
+             Bad{"[mechanism]\nkind = \"planar_slider_crank\"\ncross_inclination = 1\n", "mechanism.cross_inclination has no meaning"},
          }) {
         expect_refused(std::string("schema = 1\n") + bad.text, bad.words);
     }

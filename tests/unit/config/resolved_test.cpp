@@ -226,7 +226,7 @@ TEST(ResolvedScene, LongListsTakeSeveralLines) {
     int const n = 40;
     for (int i = 0; i < n; ++i) {
         std::string const name(keys()[static_cast<std::size_t>(i)].name);
-        if (!counts_for(*find_key(name), Mechanism::slider_crank)) continue;
+        if (!counts_for(*find_key(name), Parts{.mechanism = Mechanism::slider_crank})) continue;
         if (name == "contact.restitution" || name == "contact.hertz_exponent" || name.starts_with("friction."))
             continue;
         vary += "\"" + name + "\" = {dist=\"unif\", low=0.1, high=0.2}\n";

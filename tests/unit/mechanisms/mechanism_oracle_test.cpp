@@ -88,13 +88,13 @@ void compare_planar_probe(Isa isa, oracle::PlanarCase const& c, std::string cons
                   load * in.slider_length / in.slider_inertia_z);
     compare.group("penetrations", in_double(r.depth), p.penetration_y, 4);
     compare.group("forces", in_double(r.force), p.normal_force_y, 4);
-    long double const powers[] = {r.power_drive, r.power_friction, r.power_damping, r.power_load};
-    double const got[] = {p.power_crank, p.power_friction, p.power_damping, p.power_load};
+    long double const powers[] = {r.power_drive, r.power_friction, r.power_damping, r.power_load, r.power_ground, r.loss_springs};
+    double const got[] = {p.power_crank, p.power_friction, p.power_damping, p.power_load, p.power_ground, p.loss_springs};
     // A rate of penetration is a small difference of velocities, each of which is rounded.
     double const pin_speed = in.crank_length * std::abs(in.crank_speed);
     double const speed =
         pin_speed + in.rod_length * std::abs(static_cast<double>(start[4])) + in.slider_length * std::abs(in.wz);
-    compare.group("powers", powers, got, 4,
+    compare.group("powers", powers, got, 6,
                   1e-6 * load * speed + (c.parts.drive.turns_freely() ? 0 : (load + weight) * pin_speed));
     compare.value("energy", static_cast<double>(r.energy), p.energy, weight * reach);
     compare.value("potential", static_cast<double>(r.contact_potential), p.contact_potential);
@@ -211,6 +211,86 @@ TEST(DrivesAgainstOracle, OfThePlanarCrankAgreeOnThousandsOfStates) {
             in.drive_inertia = 1e-4 * static_cast<double>(i % 6);
         }
         compare_planar_probe(best_isa(), cases[i], "planar case " + std::to_string(i));
+    }
+}
+
+/// Springs, stops and the ground's motion on a case, with numbers of their own, under gravity of any direction.
+class RandomElements {
+public:
+    explicit RandomElements(std::uint64_t seed) : draw_(seed) {}
+
+    /// @param x of the slider's centre
+    void put(Inputs& in, Parts& parts, std::size_t i, double x) {
+        in_ = &in, next_ = 0;
+        axes_ = info(parts.mechanism).spatial ? 3 : 2;
+        if (axes_ == 3) in.cross_inclination = 3 * number();
+        weight_ = in.slider_mass * 10, size_ = in.slider_length;
+        loads_.clear();
+        if (i % 3 != 1) add_spring(x, i % 2 == 0);
+        if (i % 3 != 2) add_stop(x, i % 2 == 0 ? 1 : -1);
+        if (i % 3 != 0) add_ground();
+        parts.loads = {loads_.data(), static_cast<int>(loads_.size())};
+    }
+
+private:
+    double number() { return static_cast<double>(draw_() >> 11) * 0x1p-52 - 1; }
+    int put(double value) { return testing::put_load_number(*in_, next_, value); }
+
+    void add_spring(double x, bool along) {
+        Load& load = loads_.emplace_back();
+        load.kind = LoadKind::spring, load.along = along;
+        double const place[] = {x, 0, 0};
+        for (std::size_t axis = 0; axis < axes_; ++axis) {
+            if (!along || axis == 0) load.anchor[axis] = put(place[axis] + 2 * size_ * number());
+            load.point[axis] = put(0.5 * size_ * number());
+        }
+        load.stiffness = put(weight_ / size_ * std::abs(number())), load.rest_length = put(size_ * number());
+        load.damping = put(weight_ * std::abs(number())), load.preload = put(weight_ * number());
+    }
+    /// Half of all states are in it.
+    void add_stop(double x, double side) {
+        Load& load = loads_.emplace_back();
+        load.kind = LoadKind::stop, load.side = side;
+        load.anchor[0] = put(x + 0.01 * size_ * number()), load.point[1] = put(0.3 * size_ * number());
+        load.stiffness = put(1e3 * weight_ / size_ * std::abs(number()));
+        load.damping = put(weight_ * std::abs(number())), load.dissipation = put(std::abs(number()));
+    }
+    void add_ground() {
+        for (std::size_t axis = 0; axis < axes_; ++axis) {
+            Load& load = loads_.emplace_back();
+            load.kind = LoadKind::ground_motion, load.over = LoadArgument::time, load.table = wave_.table();
+            load.force[axis] = put(20 * number());
+        }
+    }
+
+    std::mt19937_64 draw_;
+    Inputs* in_ = nullptr;
+    int next_ = 0;
+    std::size_t axes_ = 3;
+    double weight_ = 0, size_ = 0;  // [N], [m]
+    std::vector<Load> loads_;
+    testing::Pieces wave_{{{0, 1, 2, 0, 0}, {0.5, 2, 0, -8, 0}, {1, 0, 1, 0, 0}}, 2, true};
+};
+
+TEST(ElementsAgainstOracle, AgreeOnThousandsOfStates) {
+    for (Mechanism const mechanism : oracle::spatial_mechanisms()) {
+        RandomElements elements(46);
+        auto cases = oracle::make_cases(20261130, 2000, mechanism);
+        int compared = 0;
+        for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+            auto& c = cases[i];
+            elements.put(c.inputs, c.parts, i, oracle::evaluate(c.inputs, c.parts, c.t, c.state).x);
+            compared += compare_probe(best_isa(), c, oracle::name_of(mechanism) + " case " + std::to_string(i));
+        }
+        EXPECT_GT(compared, 1800);
+    }
+    RandomElements elements(47);
+    auto cases = oracle::make_planar_cases(20261131, 2000);
+    for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+        auto& c = cases[i];
+        auto const x = oracle::PlanarMechanism(c.inputs, c.parts).at(oracle::planar_start(c.inputs)).x;
+        elements.put(c.inputs, c.parts, i, static_cast<double>(x));
+        compare_planar_probe(best_isa(), c, "planar case " + std::to_string(i));
     }
 }
 

@@ -78,11 +78,11 @@ inline void compare(std::string const& what, oracle::Case const& c, oracle::Resu
     compare.group("angular accelerations", r.derivative.data() + 7, d + 7, 3, load * c.inputs.slider_length / inertia);
     compare.group("penetrations", joined(r.pen_y, r.pen_z), depths, 16);
     compare.group("forces", joined(r.fn_y, r.fn_z), forces, 16);
-    double const reference_powers[] = {r.power_crank, r.power_friction, r.power_damping, r.power_load};
+    double const reference_powers[] = {r.power_crank, r.power_friction, r.power_damping, r.power_load, r.power_ground, r.loss_springs};
     // A rate of penetration is a small difference of velocities, each of which is rounded.
     double const speed = std::abs(r.vx) + std::hypot(c.state[2], c.state[3]) +
                          c.inputs.slider_length * std::hypot(c.state[7], c.state[8], c.state[9]);
-    compare.group("powers", reference_powers, powers, 4, 1e-6 * load * speed);
+    compare.group("powers", reference_powers, powers, 6, 1e-6 * load * speed);
     compare.value("energy", r.energy, energy);
     // A penetration is good to about 1e-18 m, whatever its size.
     compare.value("potential", r.contact_potential, potential, load * 1e-18 / Comparison::tolerance);
@@ -105,7 +105,7 @@ inline bool compare_probe(Isa isa, oracle::Case const& c, std::string const& wha
     std::vector<double> depths(p.penetration_y, p.penetration_y + 8), forces(p.normal_force_y, p.normal_force_y + 8);
     depths.insert(depths.end(), p.penetration_z, p.penetration_z + 8);
     forces.insert(forces.end(), p.normal_force_z, p.normal_force_z + 8);
-    double const powers[] = {p.power_crank, p.power_friction, p.power_damping, p.power_load};
+    double const powers[] = {p.power_crank, p.power_friction, p.power_damping, p.power_load, p.power_ground, p.loss_springs};
     EXPECT_EQ(p.status, Status::finished) << what;
     EXPECT_EQ(p.surfaces, r.surfaces) << what;
     EXPECT_EQ(p.lines, r.lines) << what;

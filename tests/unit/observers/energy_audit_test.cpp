@@ -39,6 +39,8 @@ TEST(EnergyAudit, ResidualIsWhatTheBooksDoNotExplain) {
     Audit audit{};
     audit.change = 5, audit.crank_work = 7, audit.friction_loss = 1, audit.damping_loss = 2;
     EXPECT_DOUBLE_EQ(audit.residual(), 1);
+    audit.load_work = 3, audit.spring_loss = 4;
+    EXPECT_DOUBLE_EQ(audit.residual(), 2);
 }
 
 TEST(EnergyAudit, AllowsAFifthOfWhatContactTurnedOverAndAFiftiethOfFriction) {

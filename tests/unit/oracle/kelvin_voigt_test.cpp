@@ -259,6 +259,7 @@ TEST(KelvinVoigt, LosesToItsDampersWhatIsMissing) {
     // With friction too, and a drive.
     c.parts.friction = true;
     for (Mechanism const mechanism : oracle::spatial_mechanisms()) {
+        if (oracle::name_of(mechanism).ends_with("_motor")) continue;  // whose motor these cases have not
         c.parts.mechanism = mechanism;
         auto const driven = oracle::spatial_run(c.inputs, c.parts, c.state, 2e-3L, 2e-6L);
         EXPECT_GT(driven.damping, 0.02 * kinetic) << oracle::name_of(mechanism);

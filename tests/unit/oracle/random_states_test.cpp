@@ -113,7 +113,9 @@ TEST(RandomStates, VaryEveryParameter) {
     };
     std::set<std::size_t> other = {place_of(where.slider_height), place_of(where.slider_depth),  // of the planar block alone
                                    // Cases have masses and inertias.
-                                   place_of(where.crank_section), place_of(where.rod_section), place_of(where.wall), place_of(where.density)};
+                                   place_of(where.crank_section), place_of(where.rod_section), place_of(where.wall), place_of(where.density),
+                                   place_of(where.drive_scale), place_of(where.profile_speed),  // DrivesAgainstOracle has them
+                                   place_of(where.cross_inclination)};  // ElementsAgainstOracle draws it
     // No law of the tree has more than two numbers of its own, and no mechanism any.
     for (int i = 2; i < slideway::most_own_numbers; ++i) other.insert(place_of(where.*slideway::law_inputs[i]));
     for (auto const own : slideway::mechanism_inputs) other.insert(place_of(where.*own));
