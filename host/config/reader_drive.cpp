@@ -164,8 +164,9 @@ void finish_drive(Scene& scene) {
 void check_profile(Reading const& reading, double longest) {
     Scene const& scene = reading.scene;
     if (scene.parts.drive.by != DriveBy::profile || scene.parts.drive.table->repeats) return;
-    double const end = scene.parts.drive.table->high;
-    if (longest > end * (1 + 1e-12))
+    PieceTable const& table = *scene.parts.drive.table;
+    double const end = table.low + scene.drive->table.span;
+    if (longest > table.high)
         refuse(*reading.given("drive.table"), {fmt::format("it ends at {:.10g} s, and the run at {:.10g} s", end, longest), "add rows, end the run earlier, or set repeats = true"});
 }
 

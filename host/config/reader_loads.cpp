@@ -371,7 +371,7 @@ void read_loads(Reading& reading) {
             if (loads->keys().size() == most_load_numbers) {
                 Node const* const node = reading.given(name);
                 refuse(node != nullptr ? *node : *reading.given(load.row.name),
-                       {"all loads, springs and stops of a scene and the ground's motion have sixteen numbers at most", "use fewer"});
+                       {"all loads, springs and stops of a scene and the ground's motion have sixteen numbers at most together", "use fewer"});
             }
             int const place = number->place(load.load) = loads->add_key(std::move(name), *number);
             scene.inputs.*load_inputs[place] = number->preset;

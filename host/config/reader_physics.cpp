@@ -122,7 +122,7 @@ void read_modules(Reading& reading) {
         return scene.parts.mechanism = found.value_or(scene.parts.mechanism), found.has_value();
     };
     auto const choose_law = [&](std::string_view name) { return choose_contact(scene.parts, name, scene.modules); };
-    read_named(reading.given("mechanism.kind"), ModuleKind::mechanism, mechanism_names(), choose_mechanism, "mechanism", scene);
+    read_named(reading.given("mechanism.kind"), ModuleKind::mechanism, mechanism_kinds(), choose_mechanism, "mechanism", scene);
     read_named(reading.given("contact.law"), ModuleKind::law, contact_law_names(), choose_law, "contact law", scene);
     open_for_keys(reading, "contact", ModuleKind::law);
     open_for_keys(reading, "mechanism", ModuleKind::mechanism);

@@ -148,7 +148,7 @@ constexpr KeyRule rows[] = {
     {orbits, "study.start", [](R r) { return r.scene.chaos.continued && r.scene.parts.drive.by == DriveBy::profile; }, excludes,
      "columns begin at time 0, where the drive's profile begins anew", "use start = \"fresh\""},
     {orbits, "study.start", [](R r) { return r.scene.chaos.continued && !jumping_load(r.scene.loads.get()).empty(); }, excludes,
-     "columns begin at time 0 in the first turn, where the table of load.{jumping_load} would jump",
+     "columns begin at time 0 in the first turn, where the table of {jumping_load} would jump",
      "use start = \"fresh\", or a table over crank_angle that repeats every turn"},
     {orbits, "study.revolutions", has_one_section, cannot, "exponents are taken between its sections, and there is one", "use at least 2, or a transient"},
     {study, "contact.law", [](R r) { return rigid(r) && no_restitution(r); }, excludes, "rigid contacts need contact.restitution", "give it, from 0 to 1"},

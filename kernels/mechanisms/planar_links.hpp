@@ -19,9 +19,10 @@ SLIDEWAY_FN GivenMotion<Real> planar_crank(DrivePlan const& drive, Real t, Real 
     if (drive.turns_freely()) return {s[0], s[3], Real(0.0)};
     if (drive.by != DriveBy::profile) return driven_crank(drive, t, p);
     // A state that is probed has the crank's angle at its own time.
-    auto motion = driven_crank(drive, t + p.start_time, p);
-    if (any(p.start_time != Real(0.0))) motion.place = fnma(p.motor.scale, profile_motion(*drive.table, p.start_time).place, motion.place);
-    return motion;
+    auto motion = profile_motion(*drive.table, t + p.start_time);
+    if (any(p.start_time != Real(0.0))) motion.place = motion.place - profile_motion(*drive.table, p.start_time).place;
+    auto const& scale = p.motor.scale;
+    return {fma(scale, motion.place, p.start_angle), scale * motion.velocity, scale * motion.acceleration};
 }
 
 /// Crank and rod, and their common end: the slider's centre.

@@ -52,7 +52,7 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 15> plain_data = {
+constexpr std::array<std::string_view, 16> plain_data = {
     "kernels/key.hpp",
     "kernels/inputs.hpp",
     "kernels/status.hpp",
@@ -61,6 +61,7 @@ constexpr std::array<std::string_view, 15> plain_data = {
     "kernels/grid_task.hpp",
     "kernels/joint/apex.hpp",
     "kernels/laws/law_info.hpp",
+    "kernels/loads/drive_plan.hpp",
     "kernels/loads/load_list.hpp",
     "kernels/laws/list.hpp",
     "kernels/mechanisms/list.hpp",

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "host/config/descriptors.hpp"
 #include "host/config/scene.hpp"
+#include "kernels/mechanisms/list.hpp"
 
 namespace slideway::testing {
 

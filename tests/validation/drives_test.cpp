@@ -137,10 +137,10 @@ TEST(Drives, FlywheelHoldsTheSpeedOfADrivenCrank) {
         Inputs in;
         in.crank_speed = 20, in.vy = 0.02, in.start_angle = 0.7;
         auto const a = run(in, options(driven, {}, 0.02, 1e-10));
-        in.drive_inertia = 1e3;
+        in.drive_inertia = 1e5;
         auto const b = run(in, options(free, {.by = DriveBy::nothing}, 0.02, 1e-10));
         EXPECT_GT(a.value(0, Quantity::contact_onsets), 0);
-        EXPECT_NEAR(b.states[0][free == Mechanism::planar_slider_crank ? 0 : 10], 0.7 + 20 * 0.02, 1e-9);
+        EXPECT_NEAR(b.states[0][free == Mechanism::planar_slider_crank ? 0 : 10], 0.7 + 20 * 0.02, 1e-8);
         for (int i : {1, 2, 3}) {
             auto const at = static_cast<std::size_t>(i);
             EXPECT_NEAR(a.states[0][at], b.states[0][at], 1e-5 * (1e-3 + std::abs(a.states[0][at]))) << i;
@@ -162,7 +162,7 @@ TEST(Drives, ProfileOfConstantSpeedMovesAsConstantSpeedDoes) {
             in.drive_scale = 20, in.profile_speed = 1;
             with.parts.drive = {.by = DriveBy::profile, .table = &even.table()};
             auto const b = run(in, with);
-            for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(a.states[0][i], b.states[0][i], 1e-7 * (1e-4 + std::abs(a.states[0][i]))) << i;
+            for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(a.states[0][i], b.states[0][i], 1e-6 * (1e-4 + std::abs(a.states[0][i]))) << i;
             EXPECT_NEAR(a.value(0, Quantity::crank_work), b.value(0, Quantity::crank_work), 1e-6 * std::abs(a.value(0, Quantity::crank_work)) + 1e-9);
         }
     }

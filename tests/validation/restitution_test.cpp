@@ -51,6 +51,7 @@ TEST(Restitution, IsolatedImpactsReturnTheCoefficient) {
 
 TEST(Restitution, DoesSoInEveryMechanism) {
     for (MechanismInfo const& one : mechanisms()) {
+        if (one.driven_form != nullptr) continue;  // the same contacts
         auto const mechanism = static_cast<Mechanism>(&one - mechanisms().data());
         for (double const e : {0.2, 0.4, 0.6, 0.8, 0.95}) {
             for (double const speed : {1e-3, 0.03, 1.0}) {

@@ -242,7 +242,7 @@ TEST_F(SceneLoadFiles, BadTablesAreOneLine) {
              Bad{"crank_angle [deg], pressure\n0, 1\n100, nan\n360, 1\n", "p.csv:3"},
              Bad{"crank_angle [deg], pressure\n0, 1\n100, 3\n360, 1.5\n", "the period does not close"},
              Bad{"crank_angle [deg], pressure\n0, 1\n100, 3\n350, 1\n", "a period is of whole turns"},
-             Bad{"crank_angle [deg], pressure\n0, 1\n1e-320, 3\n360, 1\n", "the load has no finite slope"},
+             Bad{"crank_angle [deg], pressure\n0, 1\n1e-320, 3\n360, 1\n", "it has no finite slope"},
              Bad{"crank_angle [deg], pressure, pressure\n0, 1, 2\n360, 1, 2\n", "the table has several columns pressure"},
              Bad{"crank_angle [mm], pressure\n0, 1\n360, 1\n", "its unit is none of rad"},
              Bad{"crank_angle [deg], pressure [kg]\n0, 1\n360, 1\n", "its unit is none of"},
