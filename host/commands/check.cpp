@@ -64,7 +64,7 @@ void print_parts(Scene const& scene) {
         sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
     }
     constexpr char const* drives[] = {"drive at constant speed", "drive on a profile", "motor", "no drive"};
-    if (mechanism.drive != DriveKind::none) sort(true, drives[static_cast<int>(scene.parts.drive.by)]);
+    if (scene.parts.drive.by != DriveBy::speed) sort(true, drives[static_cast<int>(scene.parts.drive.by)]);
     sort(true, damping_text(scene.parts));
     // Which the scene might have had.
     auto const sort_out = [&](Damping damping, std::string name) {

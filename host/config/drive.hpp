@@ -9,6 +9,8 @@
 namespace slideway {
 
 inline constexpr std::string_view drive_names[] = {"speed", "profile", "torque", "free"};  // in the order of DriveBy
+/// What scenes of earlier versions say in the place of drive.kind, and those of their results: "driven" or "free".
+inline constexpr std::string_view former_crank = "mechanism.crank", former_cranks[] = {"driven", "free"};
 inline constexpr std::string_view drive_arguments[] = {"crank_speed", "crank_angle", "time"};
 
 /// What the column of a profile is.

@@ -30,6 +30,7 @@ void check_known(Reading const& reading) {
         bool const is_table = contains(tables, node.key);
         if (is_table && !node.is_table()) refuse(node, {"it must be a table", fmt::format("write [{}] and its keys below", node.key)});
         for (Node const& child : node.children) {
+            if (child.name == former_crank) continue;  // choose_drive does it
             if (is_table && (child.key.find('.') != std::string::npos || !contains(all, child.name))) refuse_unknown(child, "key", all);
         }
         if (is_table || (node.key.find('.') == std::string::npos && contains(keys, node.key))) continue;

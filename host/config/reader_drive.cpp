@@ -131,10 +131,18 @@ private:
 
 void choose_drive(Reading& reading) {
     Scene& scene = reading.scene;
-    Node const* const table = reading.given("drive");
+    Node const* const former = reading.given(former_crank);
+    Node const* const table = former != nullptr ? former : reading.given("drive");
     if (table == nullptr) return;
-    Node const* const kind = reading.given("drive.kind");
-    auto const by = kind == nullptr ? DriveBy::speed : static_cast<DriveBy>(read_choice(*kind, setting("drive.kind")));
+    Node const* const kind = former != nullptr ? former : reading.given("drive.kind");
+    DriveBy by = DriveBy::speed;
+    if (former != nullptr) {
+        bool const free = read_choice(*former, "crank", former_cranks) == 1;
+        if (free) by = DriveBy::nothing;
+        reading.warn(fmt::format("{}: mechanism.crank is of an earlier version; {}", former->where, free ? "write [drive] and kind = \"free\" below" : "remove it"));
+    } else if (kind != nullptr) {
+        by = static_cast<DriveBy>(read_choice(*kind, setting("drive.kind")));
+    }
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     if (mechanism.drive == DriveKind::none || module_of(scene.parts.mechanism) != nullptr)
         throw SceneError(fmt::format("{}: drive has no meaning for kind = \"{}\"; remove it", table->where, mechanism.name));

@@ -50,7 +50,7 @@ BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, 
         bool const of_loads = mechanism.on_cards && !scene.parts.rigid && scene.parts.loads.count > 0;
         std::string const what = !steady               ? std::string("drive.kind is given")
                                  : !mechanism.on_cards ? fmt::format("mechanism.kind is \"{}\"", mechanism.name)
-                                 : of_loads          ? fmt::format("load.{} is given", scene.parts.loads.loads[0].name)
+                                 : of_loads          ? fmt::format("{} is given", scene.parts.loads.loads[0].name)
                                                      : fmt::format("contact.law is \"{}\"", contact_info(scene.parts).name);
         throw SceneError(fmt::format("{}: {} ({}); use --backend cpu", scene.path, what, lack));
     }

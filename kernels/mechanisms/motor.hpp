@@ -8,7 +8,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Numbers of [drive] (docs/model.md 15).
-template <class Real> struct MotorParameters {
+template <class Real> struct DriveNumbers {
     Real torque;   // T0 [N m]
     Real droop;    // 1/ω0 along the torque, 0 of one that does not fall with the speed [s/rad]
     Real viscous;  // c [N m s/rad]
@@ -16,7 +16,7 @@ template <class Real> struct MotorParameters {
     Real scale;    // of a profile
 };
 
-SLIDEWAY_FN MotorParameters<double> motor_parameters(Inputs const& in) {
+SLIDEWAY_FN DriveNumbers<double> drive_numbers(Inputs const& in) {
     double const own = in.crank_inertia + 0.25 * in.crank_mass * in.crank_length * in.crank_length;
     double const droop = in.drive_no_load_speed == 0 ? 0 : 1 / in.drive_no_load_speed;
     return {in.drive_torque, in.drive_torque < 0 ? -droop : droop, in.drive_viscous, own + in.drive_inertia, in.drive_scale};
@@ -30,7 +30,7 @@ SLIDEWAY_FN double drive_scale_rate(Inputs const& in) {
 
 /// T = f T0 (1 − ω/ω0) − c ω [N m], with ω0 on the side of T0 and f what the drive's table is over angle, time or speed, 1 without one.
 template <class Real>
-SLIDEWAY_FN Real motor_torque(DrivePlan const& drive, MotorParameters<Real> const& motor, Real t, Real angle, Real speed) {
+SLIDEWAY_FN Real motor_torque(DrivePlan const& drive, DriveNumbers<Real> const& motor, Real t, Real angle, Real speed) {
     Real torque = motor.torque * fnma(speed, motor.droop, Real(1.0));
     if (drive.table != nullptr) {
         Real const over = drive.over == LoadArgument::crank_angle ? angle : drive.over == LoadArgument::time ? t : speed;

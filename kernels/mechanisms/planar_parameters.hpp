@@ -29,7 +29,7 @@ template <class Real> struct PlanarParameters {
     DampingParameters<Real> damping;
     FrictionParameters<Real> friction;
     Real load[most_load_numbers];  // numbers of the scene's loads
-    MotorParameters<Real> motor;   // and of its drive
+    DriveNumbers<Real> motor;   // and of its drive
     Real rate_scale;   // |ω|, at least 1 [1/s]
     Real restitution;  // e
 };
@@ -61,7 +61,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.damping = {0, 0, restitution_slope(in.restitution), in.restitution};
     p.friction = friction_parameters(in);
     put_load_numbers(in, p.load);
-    p.motor = motor_parameters(in);
+    p.motor = drive_numbers(in);
     p.rate_scale = drive_scale_rate(in);
     p.restitution = in.restitution;
     return p;

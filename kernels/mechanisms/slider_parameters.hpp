@@ -34,7 +34,7 @@ template <class Real> struct SliderParameters {
     Vec3<Real> inverse_inertia;
     JointParameters<Real> joint;
     Real load[most_load_numbers];  // numbers of the scene's loads
-    MotorParameters<Real> motor;   // and of its drive
+    DriveNumbers<Real> motor;   // and of its drive
     // energy and torque only
     Real rod_mass;         // m_r [kg]
     Real rod_mass_center;  // f_r
@@ -134,7 +134,7 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
 
     p.joint.friction = friction_parameters(in);
     put_load_numbers(in, p.load);
-    p.motor = motor_parameters(in);
+    p.motor = drive_numbers(in);
 
     p.rod_mass = in.rod_mass;
     p.rod_mass_center = center;

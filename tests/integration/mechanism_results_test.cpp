@@ -117,7 +117,7 @@ TEST_P(MechanismsFile, HoldsEachMembersStates) {
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, MechanismsFile, ::testing::ValuesIn(cases), name_of_case);
 
-TEST(MechanismsFiles, AreOfEveryMechanism) { EXPECT_EQ(std::size(cases), mechanisms().size()); }
+TEST(MechanismsFiles, AreOfEveryMechanism) { EXPECT_EQ(std::size(cases), mechanism_kinds().size()); }
 
 TEST(MechanismsBlocks, TakeTheRoomOfTheirStates) {
     BlockRequest small, large;

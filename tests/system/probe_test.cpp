@@ -103,7 +103,7 @@ TEST_F(Probe, OfLoadsIsAtTheTimeOfTheState) {
         for (std::string const& crank : {std::string("driven"), std::string("free")}) {
             std::vector<std::string> words{"probe", scene + ".toml", "--csv", scene + ".csv", "-o", "o.csv", "--force"};
             if (crank == "free" && scene == "spatial") continue;
-            if (crank == "free") words.insert(words.end(), {"--set", "mechanism.crank=free"});
+            if (crank == "free") words.insert(words.end(), {"--set", "drive.kind=free"});
             Outcome const outcome = run(words);
             ASSERT_EQ(outcome.code, 0) << outcome.err;
             auto const table = golden::Table::read(path("o.csv"));

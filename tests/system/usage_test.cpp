@@ -76,8 +76,8 @@ TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
               "parts in     carriage mechanism; foundation law; no damping\n"
               "parts out    paper law; conservative law; kelvin_voigt law; rigid contact; damping of surface contacts; restitution; friction; "
               "pose of a misaligned way; time series");
-    EXPECT_EQ(parts("kind = \"planar_slider_crank\"\ncrank = \"free\"\n[contact]\nrestitution = 0.5"),
-              "parts in     planar_slider_crank mechanism; free crank; contact of corners; restitution\n"
+    EXPECT_EQ(parts("kind = \"planar_slider_crank\"\n[drive]\nkind = \"free\"\n[contact]\nrestitution = 0.5"),
+              "parts in     planar_slider_crank mechanism; contact of corners; no drive; restitution\n"
               "parts out    friction; time series");
     // One that has them all.
     EXPECT_NE(run({"check", std::string(SLIDEWAY_SCENES) + "/planar_rigid.toml"}).out.find("\nparts out    none\n"), std::string::npos);

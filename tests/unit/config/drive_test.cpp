@@ -59,6 +59,13 @@ TEST_F(SceneDrives, OfTorqueHaveTheCrankInTheirState) {
               Mechanism::planar_slider_crank);
 }
 
+TEST_F(SceneDrives, OfEarlierVersionsAreStillRead) {
+    auto const of = [](std::string const& crank) { return parse_scene("schema = 1\n[mechanism]\nkind = \"planar_slider_crank\"\ncrank = \"" + crank + "\"\n", "s.toml"); };
+    EXPECT_EQ(of("free").parts.drive.by, DriveBy::nothing);
+    EXPECT_EQ(of("driven").parts.drive.by, DriveBy::speed);
+    EXPECT_EQ(of("free").warnings.front(), "s.toml:4: mechanism.crank is of an earlier version; write [drive] and kind = \"free\" below");
+}
+
 TEST_F(SceneDrives, RefuseWhatTheirKindHasNot) {
     EXPECT_EQ(error("slider_crank", "[drive]\nkind = \"torque\"\n"), "drive.torque is missing (what the motor turns with); add torque = \"2 N m\"");
     EXPECT_EQ(error("slider_crank", "[drive]\nkind = \"free\"\ntorque = 1\n"),
