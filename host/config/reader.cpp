@@ -100,10 +100,9 @@ void refuse_meaningless(std::string_view where, std::string_view name, Mechanism
     throw SceneError(fmt::format("{}: {} has no meaning for kind = \"{}\"; remove it", where, name, kind_of(mechanism)));
 }
 
-void refuse_replaced(Node const& node, Parts const& parts) {
-    refuse(node, {fmt::format("drive.kind \"{}\" {}", drive_names[static_cast<int>(parts.drive.by)],
-                              find_key(node.name)->group == KeyGroup::drive ? "does not have it" : "says how fast"),
-                  "remove it, or use another kind"});
+void refuse_replaced(Node const& node, Key const& key, Parts const& parts) {
+    std::string_view const kind = drive_names[static_cast<int>(parts.drive.by)], why = key.group == KeyGroup::drive ? "does not have it" : "says how fast";
+    throw SceneError(fmt::format("{}: {} is given (drive.kind \"{}\" {}); remove it, or use another kind", node.where, key.name, kind, why));
 }
 
 void refuse_strange(Node const& node, Parts const& parts) {

@@ -138,7 +138,7 @@ inline constexpr double most_values = 1e10;
 /// A key, or a table, that does not count for the scene's mechanism, at a position.
 [[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
 /// A key that the scene's drive does not have, or has in other words.
-[[noreturn]] void refuse_replaced(Node const& node, Parts const& parts);
+[[noreturn]] void refuse_replaced(Node const& node, Key const& key, Parts const& parts);
 /// A key that the scene's law does not know.
 [[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
 /// A quantity or a series that the scene's mechanism does not have.

@@ -32,7 +32,8 @@ public:
     void read() {
         for (auto const& [name, kinds] : drive_keys) {
             if (Node const* const node = reading_.given(name); node != nullptr && (kinds >> static_cast<int>(by_) & 1u) == 0)
-                refuse(*node, {fmt::format("drive.kind \"{}\" does not have it", drive_names[static_cast<int>(by_)]), "remove it, or use another kind"});
+                throw SceneError(fmt::format("{}: {} is given (drive.kind \"{}\" does not have it); remove it, or use another kind", node->where, name,
+                                             drive_names[static_cast<int>(by_)]));
         }
         if (by_ == DriveBy::profile) read_profile();
         if (by_ == DriveBy::torque) read_torque();

@@ -83,7 +83,7 @@ void read_numbers(Reading& reading) {
             key->set(scene.inputs, read_number(*node, *key));
             continue;
         }
-        if (is_replaced_by_drive(*key, scene.parts)) refuse_replaced(*node, scene.parts);
+        if (is_replaced_by_drive(*key, scene.parts)) refuse_replaced(*node, *key, scene.parts);
         // An option may choose another law than the file, which has the keys of its own.
         bool const of_another = law != nullptr && law->order > 0 && node->order == 0;
         if (!of_another) refuse_strange(*node, scene.parts);

@@ -46,6 +46,7 @@ constexpr struct {
     {"study", [](Scene const& s) { return std::string(name_of(s.study)); }},
     {"design", [](Scene const& s) { return std::string(name_of(s.design.kind)); }},
     {"parameter", [](Scene const& s) { return std::string(s.chaos.parameter->name); }},
+    {"kind", [](Scene const& s) { return std::string(kind_of(s.parts.mechanism)); }},
     {"jumping_load", [](Scene const& s) { return std::string(jumping_load(s.loads.get())); }},
     {"rest", [](Scene const& s) { return why_no_period(s.parts); }},
     {"method", [](Scene const& s) { return std::string(name_of(s.integrator.method)); }},

@@ -78,6 +78,8 @@ void read_section(Node const& table, Scene& scene) {
         section.index = index < states ? index : (index - states) % apices;
         if (value != nullptr) section.level = read_number(*value, section_unit(section, scene.parts.mechanism));
     }
+    // A crank may turn either way.
+    if (section.on == On::state && mechanism.state[section.index] == Series::crank_angle) section.direction = CrossingDirection::both;
     if (direction != nullptr) section.direction = static_cast<CrossingDirection>(read_choice(*direction, "direction", crossing_direction_names));
 }
 

@@ -116,7 +116,7 @@ void check_varied(Reading const& reading, Node const& node, Key const& key, Prob
         if (given.node->order > 0 && given.key->overlaps(key)) refuse(*given.node, of_option);
     }
     if (!counts_for(key, scene.parts.mechanism)) refuse_meaningless(node.where, key.name, scene.parts.mechanism);
-    if (is_replaced_by_drive(key, scene.parts)) refuse_replaced(node, scene.parts);
+    if (is_replaced_by_drive(key, scene.parts)) refuse_replaced(node, key, scene.parts);
     if (!counts_for(key, scene.parts)) refuse_strange(node, scene.parts);
     apply_rules(reading, key, node);
     if (key.member != &Inputs::restitution) return;

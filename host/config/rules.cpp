@@ -76,6 +76,8 @@ constexpr std::string_view columns_begin = "with start = \"continue\" columns be
 using enum Known;
 
 constexpr KeyRule rows[] = {
+    {mechanism, "contact.law", [](R r) { return rigid(r) && info(r.scene.parts.mechanism).driven_form != nullptr; }, excludes,
+     "rigid contacts know no crank of a {kind} that turns freely", "use another law, drive.kind = speed or profile, or mechanism.kind = planar_slider_crank"},
     {mechanism, "contact.law", [](R r) { return rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, excludes,
      "the contacts of a {mechanism} give way", "use another law, or mechanism.kind = {rigid_mechanisms}"},
     {mechanism, "way", [](R r) { return !spatial(r); }, foreign},

@@ -69,8 +69,12 @@ TEST_F(SceneDrives, OfEarlierVersionsAreStillRead) {
 TEST_F(SceneDrives, RefuseWhatTheirKindHasNot) {
     EXPECT_EQ(error("slider_crank", "[drive]\nkind = \"torque\"\n"), "drive.torque is missing (what the motor turns with); add torque = \"2 N m\"");
     EXPECT_EQ(error("slider_crank", "[drive]\nkind = \"free\"\ntorque = 1\n"),
-              "drive.torque is 1 (drive.kind \"free\" does not have it); remove it, or use another kind");
-    EXPECT_EQ(error("slider_crank", "[drive]\ninertia = 1\n"), "drive.inertia is 1 (drive.kind \"speed\" does not have it); remove it, or use another kind");
+              "drive.torque is given (drive.kind \"free\" does not have it); remove it, or use another kind");
+    EXPECT_EQ(error("slider_crank", "[drive]\ninertia = 1\n"), "drive.inertia is given (drive.kind \"speed\" does not have it); remove it, or use another kind");
+    EXPECT_EQ(error("slider_crank", "", "[study]\nduration = 1\n[study.vary]\n\"drive.torque\" = { dist = \"const\", value = 1 }\n"),
+              "drive.torque is given (drive.kind \"speed\" does not have it); remove it, or use another kind");
+    EXPECT_EQ(error("slider_crank", "[drive]\nkind = \"free\"\n", "[study]\nduration = 1\n[study.vary]\n\"drive.scale\" = { dist = \"const\", value = 1 }\n"),
+              "drive.scale is given (drive.kind \"free\" does not have it); remove it, or use another kind");
     EXPECT_EQ(error("carriage", "[drive]\nkind = \"torque\"\ntorque = 1\n"),
               "drive.kind is \"torque\" (a carriage has no crank that could turn freely); use \"speed\" or \"profile\"");
     EXPECT_EQ(error("free_slider", "[drive]\nkind = \"profile\"\n"), "drive has no meaning for kind = \"free_slider\"; remove it");
@@ -133,7 +137,7 @@ TEST_F(SceneDrives, RefuseBadProfilesInOneLine) {
     table("time [s],speed [rad/s]\n0,1\n0,2\n");
     EXPECT_NE(error("slider_crank", speed).find("the place stands twice"), std::string::npos);
     table("time [s],speed [rad/s]\n0,1\n5,2\n");
-    EXPECT_EQ(error("slider_crank", "crank_speed = 3\n" + speed), "mechanism.crank_speed is 3 (drive.kind \"profile\" says how fast); remove it, or use another kind");
+    EXPECT_EQ(error("slider_crank", "crank_speed = 3\n" + speed), "mechanism.crank_speed is given (drive.kind \"profile\" says how fast); remove it, or use another kind");
 }
 
 }  // namespace
