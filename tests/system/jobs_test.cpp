@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -18,18 +19,29 @@ namespace {
 
 std::string const jobs = std::string(SLIDEWAY_SOURCE) + "/examples/jobs/";
 
-/// Mean of a column of a job's result.  @param options more of the command line
-double mean_of(std::string const& job, std::string const& options, std::string const& name) {
-    auto const folder = std::filesystem::temp_directory_path() / ("slideway_job_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    auto const run = testing::run_shell(folder, std::string(SLIDEWAY_BINARY) + " run '" + jobs + job + "' -o job.nc " + options);
-    EXPECT_EQ(run.code, 0) << run.err;
-    double sum = 0;
-    auto const values = ResultReader((folder / "job.nc").string()).values(name);
-    for (double const value : values) sum += value;
-    std::filesystem::remove_all(folder);
-    return sum / static_cast<double>(values.size());
-}
+/// The result of a job, run once.
+class Job {
+public:
+    /// @param options more of the command line
+    Job(std::string const& job, std::string const& options)
+        : folder_(std::filesystem::temp_directory_path() / ("slideway_job_" + std::to_string(getpid()) + "_" + std::to_string(++count))) {
+        std::filesystem::create_directories(folder_);
+        auto const run = testing::run_shell(folder_, std::string(SLIDEWAY_BINARY) + " run '" + jobs + job + "' -o job.nc " + options);
+        EXPECT_EQ(run.code, 0) << run.err;
+    }
+    ~Job() { std::filesystem::remove_all(folder_); }
+    Job(Job const&) = delete;
+    Job& operator=(Job const&) = delete;
+
+    double mean(std::string const& name) const {
+        auto const values = ResultReader((folder_ / "job.nc").string()).values(name);
+        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    }
+
+private:
+    static inline int count = 0;
+    std::filesystem::path folder_;
+};
 
 /// Work of the indicator diagram on the pump without clearance, by the rule of trapezia over straight lines between its rows [J per turn].
 double work_of_indicator() {
@@ -55,36 +67,32 @@ double work_of_indicator() {
 
 TEST(Jobs, PumpDoesTheWorkOfItsIndicatorDiagram) {
     std::string const few = "--set study.members=16 --set study.verify=0";
-    double const work = mean_of("pump.toml", few, "load_work") / 5;
+    Job const pump("pump.toml", few), idle("pump.toml", few + " --set 'study.vary.\"load.plunger.scale\"={dist=\"const\",value=0}'");
+    double const work = pump.mean("load_work") / 5, lost = pump.mean("friction_loss"), given = pump.mean("crank_work");
     // Between rows the pressure is no straight line.
     EXPECT_NEAR(work, work_of_indicator(), 0.01 * std::abs(work));
-    std::string const no_pressure = few + " --set 'study.vary.\"load.plunger.scale\"={dist=\"const\",value=0}'";
-    double const lost = mean_of("pump.toml", few, "friction_loss"), without = mean_of("pump.toml", no_pressure, "friction_loss");
-    EXPECT_GT(lost, 20 * without);
-    double const given = mean_of("pump.toml", few, "crank_work");
+    EXPECT_GT(lost, 20 * idle.mean("friction_loss"));
     EXPECT_NEAR(given, -5 * work + lost, 0.01 * given);
 }
 
 TEST(Jobs, PressTakesItsStrokesFromTheFlywheel) {
     std::string const few = "--set study.members=8 --set study.verify=0";
-    double const work = mean_of("press.toml", few, "load_work"), given = mean_of("press.toml", few, "crank_work");
+    Job const press("press.toml", few), light("press.toml", few + " --set 'study.vary.\"drive.inertia\"={dist=\"const\",value=0.05}'");
+    double const work = press.mean("load_work"), given = press.mean("crank_work");
     // What the drive gives and does not go into the strokes is in friction, impacts and what turns.
-    double const lost = mean_of("press.toml", few, "friction_loss") + mean_of("press.toml", few, "damping_loss"),
-                 kept = mean_of("press.toml", few, "energy_change");
+    double const lost = press.mean("friction_loss") + press.mean("damping_loss"), kept = press.mean("energy_change");
     EXPECT_LT(work, -50);
     EXPECT_NEAR(given + work, lost + kept, 1e-4 * given);
     // A flywheel loses what a stroke takes: a light one slows the press down more, and it makes fewer strokes.
-    std::string const light = few + " --set 'study.vary.\"drive.inertia\"={dist=\"const\",value=0.05}'";
-    EXPECT_GT(mean_of("press.toml", light, "load_work"), work);
+    EXPECT_GT(light.mean("load_work"), work);
 }
 
 TEST(Jobs, CarriageFollowsItsProfile) {
     // There and back it stops where it began: all that the drive gives is lost, but for what the slider keeps across the way.
-    std::string const few = "--set study.members=8 --set study.verify=0";
-    double const given = mean_of("carriage.toml", few, "crank_work"), friction = mean_of("carriage.toml", few, "friction_loss"),
-                 impacts = mean_of("carriage.toml", few, "damping_loss"), kept = mean_of("carriage.toml", few, "energy_change");
+    Job const job("carriage.toml", "--set study.members=4 --set study.verify=0");
+    double const given = job.mean("crank_work");
     EXPECT_GT(given, 0);
-    EXPECT_NEAR(given, friction + impacts + kept, 1e-4 * given);
+    EXPECT_NEAR(given, job.mean("friction_loss") + job.mean("damping_loss") + job.mean("energy_change"), 1e-4 * given);
 }
 
 /// Cells of a row of a table without commas in its cells.
@@ -144,16 +152,17 @@ double restitution_of(double a) {
 
 TEST(Jobs, EndStopsTakeWhatFrictionLeavesThem) {
     std::string const alike = "--set study.members=4 --set study.verify=0 --set 'study.vary={\"initial.z\"={dist=\"const\",value=0}}'";
+    Job const job("end_stops.toml", alike);
     double const mass = 0.8, friction = 0.1 * mass * weight;
     // It meets the buffer, comes back and slides to rest before it meets the other one.
     double const before = 0.5 * mass * 0.5 * 0.5 - friction * 0.05, speed = std::sqrt(2 * before / mass), e = restitution_of(7.7 * speed);
-    double const lost = mean_of("end_stops.toml", alike, "spring_loss");
+    double const lost = job.mean("spring_loss");
     EXPECT_LT(e * e * before / friction, 0.1);
     // Friction takes its share on the buffer too, over twice the depth at most.
     EXPECT_LT(lost, (1 - e * e) * before);
     EXPECT_GT(lost, (1 - e * e) * (before - 2 * friction * speed * std::sqrt(mass / 1e5)));
-    EXPECT_NEAR(mean_of("end_stops.toml", alike, "energy_change"), -0.5 * mass * 0.5 * 0.5, 1e-6);
-    EXPECT_NEAR(mean_of("end_stops.toml", alike, "friction_loss"), 0.5 * mass * 0.5 * 0.5 - lost, 1e-6);
+    EXPECT_NEAR(job.mean("energy_change"), -0.5 * mass * 0.5 * 0.5, 1e-6);
+    EXPECT_NEAR(job.mean("friction_loss"), 0.5 * mass * 0.5 * 0.5 - lost, 1e-6);
 }
 
 TEST(Jobs, ShakenSpringTakesThePowerOfItsResonanceCurve) {
@@ -164,18 +173,20 @@ TEST(Jobs, ShakenSpringTakesThePowerOfItsResonanceCurve) {
     // Once it swings evenly, with the amplitude a/|k/m − w² + i w c/m|.
     double const m = 0.8, k = 800, c = 2.5, w = 2 * std::numbers::pi * 4, amplitude = 1.5 / std::hypot(k / m - w * w, w * c / m);
     double const power = 0.5 * c * w * w * amplitude * amplitude;
+    Job const longer("shaken_spring.toml", alike(10)), shorter("shaken_spring.toml", alike(9));
     for (char const* const quantity : {"ground_work", "spring_loss"}) {
-        double const late = mean_of("shaken_spring.toml", alike(10), quantity) - mean_of("shaken_spring.toml", alike(9), quantity);
+        double const late = longer.mean(quantity) - shorter.mean(quantity);
         EXPECT_NEAR(late, power, 1e-3 * power) << quantity;
     }
 }
 
 TEST(Jobs, LeaningWayPressesOnTwoFaces) {
     std::string const alike = "--set study.members=4 --set study.verify=0 --set 'study.vary={\"initial.vy\"={dist=\"const\",value=0}}'";
+    Job const job("leaning_way.toml", alike);
     double const pi = std::numbers::pi, mass = 7800 * 0.04 * 0.02 * 0.03, press = mass * weight * std::cos(pi / 6) * 2 * std::sqrt(0.5);
     double const pull = mass * weight * std::sin(pi / 6) - 0.15 * press, way = 0.5 * pull / mass * 0.5 * 0.5;
-    EXPECT_NEAR(mean_of("leaning_way.toml", alike, "mean_normal_force"), press, 1e-6 * press);
-    EXPECT_NEAR(mean_of("leaning_way.toml", alike, "friction_loss"), 0.15 * press * way, 1e-4 * press * way);
+    EXPECT_NEAR(job.mean("mean_normal_force"), press, 1e-6 * press);
+    EXPECT_NEAR(job.mean("friction_loss"), 0.15 * press * way, 1e-4 * press * way);
 }
 
 }  // namespace
