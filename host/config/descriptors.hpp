@@ -108,6 +108,8 @@ int free_states(Parts const& parts);
 
 /// T [s]: 2π/|ω| of a driven crank, 2 (stroke/v + t_r) of the carriage (model.md 7), or that of a profile that repeats; infinite where nothing comes round.
 double drive_period(Parts const& parts, Inputs const& inputs);
+/// The same, if the drive had the speed of the inputs all along: of a profile its fastest, of a motor that which it starts with.
+double steady_period(Parts parts, Inputs const& inputs);
 /// First time in (0, T] at which the drive has this phase [s]: the crank an angle, the carriage a share phase/2π of its period.
 /// @param phase [rad], any turn of it  @param inputs whose drive has a period
 double first_time_at(double phase, Parts const& parts, Inputs const& inputs);

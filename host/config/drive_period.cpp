@@ -66,6 +66,11 @@ double drive_period(Parts const& parts, Inputs const& inputs) { return drive_per
 
 double first_time_at(double phase, Parts const& parts, Inputs const& inputs) { return first_time_at(phase, info(parts.mechanism), parts.drive, inputs); }
 
+double steady_period(Parts parts, Inputs const& inputs) {
+    parts.drive = {};
+    return drive_period(parts, inputs);
+}
+
 std::string why_no_period(Parts const& parts) {
     if (parts.drive.by == DriveBy::profile) return "the drive's profile does not repeat";
     if (parts.drive.by == DriveBy::torque) return "no speed is given of a crank on a motor";
@@ -86,9 +91,7 @@ PeriodRange drive_periods(Scene const& scene) {
         key.set(at_least, varied ? varied->low : own);
         key.set(at_most, varied ? varied->high : own);
     };
-    if (scene.parts.drive.by == DriveBy::profile) {
-        // A table is the same for all.
-    } else if (info(scene.parts.mechanism).drive == DriveKind::carriage) {
+    if (info(scene.parts.mechanism).drive == DriveKind::carriage) {
         vary("mechanism.carriage_speed", longest, shortest);
         vary("mechanism.stroke", shortest, longest);
         vary("mechanism.reversal_time", shortest, longest);
@@ -101,18 +104,20 @@ PeriodRange drive_periods(Scene const& scene) {
 }
 
 double fastest_period(Scene const& scene) {
-    Parts steady = scene.parts;
-    steady.drive = {};
-    if (scene.parts.drive.by == DriveBy::speed) return scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(steady, scene.inputs);
+    if (scene.parts.drive.by == DriveBy::speed) return scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(scene.parts, scene.inputs);
     auto const largest = [&](std::string_view name) {
         Key const& key = *find_key(name);
         auto const varied = magnitudes(scene, key);
         return varied ? varied->high : std::abs(key.get(scene.inputs));
     };
     Inputs in = scene.inputs;
-    if (scene.parts.drive.by == DriveBy::profile) in.crank_speed *= largest("drive.scale"), in.carriage_speed *= largest("drive.scale"), in.stroke *= largest("drive.scale");
-    else in.crank_speed = std::max(largest("mechanism.crank_speed"), largest("drive.no_load_speed"));
-    return drive_period(steady, in);
+    if (scene.parts.drive.turns_freely()) {
+        in.crank_speed = std::max(largest("mechanism.crank_speed"), largest("drive.no_load_speed"));
+    } else {
+        double const scale = largest("drive.scale");
+        in.crank_speed *= scale, in.carriage_speed *= scale, in.stroke *= scale;
+    }
+    return steady_period(scene.parts, in);
 }
 
 double shortest_reversal(Scene const& scene) {

@@ -14,14 +14,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Type = Setting::Type;
 
-/// Names of those of a list that know a key; none where all do.
-template <class Infos, class Knows> std::vector<std::string_view> owners(Infos const& infos, Knows knows) {
+/// Names of those of a list that know a key; none where all do.  @param stands whether one is in the list at all
+template <class Infos, class Knows, class Stands> std::vector<std::string_view> owners(Infos const& infos, Knows knows, Stands stands) {
     std::vector<std::string_view> names;
+    bool all = true;
     for (std::size_t i = 0; i < std::size(infos); ++i) {
+        if (!stands(i)) continue;
         if (knows(i)) names.push_back(infos[i]);
+        else all = false;
     }
-    if (names.size() == std::size(infos)) names.clear();
+    if (all) names.clear();
     return names;
+}
+template <class Infos, class Knows> std::vector<std::string_view> owners(Infos const& infos, Knows knows) {
+    return owners(infos, knows, [](std::size_t) { return true; });
 }
 
 /// What its numbers may be.
@@ -91,13 +97,13 @@ std::string_view name_of(Type type) {
 
 std::array<std::vector<std::string_view>, 4> owners_of(Setting const& key) {
     Key const* const physics = key.physics;
-    auto const of_kind = [&](std::size_t i) {
-        Mechanism const kind = find_mechanism(mechanism_kinds()[i]).value_or(Mechanism{});
-        if (physics == nullptr) return is_of(key, static_cast<std::size_t>(kind));
+    auto const of_mechanism = [&](std::size_t i) {
+        if (physics == nullptr) return is_of(key, i);
+        auto const kind = static_cast<Mechanism>(i);
         auto const turning = turning_form(kind);
         return counts_for(*physics, kind) || (turning && counts_for(*physics, *turning));
     };
-    return {owners(mechanism_kinds(), of_kind),
+    return {owners(mechanism_names(), of_mechanism, [](std::size_t i) { return mechanisms()[i].driven_form == nullptr; }),
             owners(contact_law_names(), [&](std::size_t i) { return physics == nullptr || is_of_law(*physics, i); }),
             owners(study_kind_names, [&](std::size_t i) { return (key.studies & set_of(static_cast<StudyKind>(i))) != 0; }),
             owners(setting("integrator.method").choices, [&](std::size_t i) { return (key.methods & set_of(static_cast<Method>(i))) != 0; })};

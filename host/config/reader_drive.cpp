@@ -11,40 +11,25 @@
 namespace slideway {
 namespace {
 
-/// Keys of [drive] beside its kind, and which kinds have them.
-constexpr struct {
-    std::string_view name;
-    unsigned kinds;  // a bit for each DriveBy
-} drive_keys[] = {
-    {"drive.torque", 0b0100},        {"drive.no_load_speed", 0b0100}, {"drive.viscous", 0b1100}, {"drive.inertia", 0b1100}, {"drive.scale", 0b0010},
-    {"drive.table", 0b0110},         {"drive.column", 0b0110},        {"drive.over", 0b0100},    {"drive.gives", 0b0010},
-    {"drive.interpolation", 0b0110}, {"drive.repeats", 0b0110},
-};
-
 constexpr std::string_view angle_unit[] = {"rad"}, speed_unit[] = {"rad/s"}, place_unit[] = {"m"}, velocity_unit[] = {"m/s"},
                            torque_units[] = {"1", "N m"};
 
-/// Reads one table [drive].
+/// Reads the table of a drive; what there must be of [drive], and what not, is checked (rules.cpp).
 class DriveReader {
 public:
-    explicit DriveReader(Reading& reading) : reading_(reading), scene_(reading.scene), by_(reading.scene.parts.drive.by) {}
+    explicit DriveReader(Reading& reading) : reading_(reading), scene_(reading.scene) {}
 
     void read() {
-        for (auto const& [name, kinds] : drive_keys) {
-            if (Node const* const node = reading_.given(name); node != nullptr && (kinds >> static_cast<int>(by_) & 1u) == 0)
-                throw SceneError(fmt::format("{}: {} is given (drive.kind \"{}\" does not have it); remove it, or use another kind", node->where, name,
-                                             drive_names[static_cast<int>(by_)]));
-        }
-        if (by_ == DriveBy::profile) read_profile();
-        if (by_ == DriveBy::torque) read_torque();
+        if (reading_.given("drive.table") == nullptr) return;
+        auto drive = std::make_shared<SceneDrive>();
+        if (scene_.parts.drive.by == DriveBy::profile) read_profile(*drive);
+        else read_torque(*drive);
+        scene_.parts.drive.table = drive->plan_table();
+        scene_.drive = std::move(drive);
     }
 
 private:
-    Node const& needed(std::string_view name, std::string_view why, std::string_view advice) const {
-        Node const* const node = reading_.given(name);
-        if (node == nullptr) refuse_missing(*reading_.given("drive.kind"), name, why, advice);
-        return *node;
-    }
+    Node const& given(std::string_view name) const { return *reading_.given(name); }
     std::size_t choice(std::string_view name, std::size_t preset) const {
         Node const* const given = reading_.given(name);
         return given == nullptr ? preset : read_choice(*given, setting(name));
@@ -55,25 +40,25 @@ private:
     }
     Interpolation interpolation() const { return static_cast<Interpolation>(choice("drive.interpolation", 0)); }
 
-    void read_profile() {
+    LoadTable read_table(TableKind const& kind) const {
+        Node const& column = given("drive.column");
+        return read_table_of(reading_, given("drive.table"), column, read_text_value(column), kind);
+    }
+
+    void read_profile(SceneDrive& drive) const {
         bool const turns = info(scene_.parts.mechanism).drive == DriveKind::crank;
-        Node const& gives = needed("drive.gives", "what the profile's column is", turns ? "add gives = \"angle\" or \"speed\"" : "add gives = \"position\" or \"speed\"");
-        auto const what = static_cast<ProfileGives>(read_choice(gives, setting("drive.gives")));
-        if (what == (turns ? ProfileGives::position : ProfileGives::angle))
+        Node const& gives = given("drive.gives");
+        drive.gives = static_cast<ProfileGives>(read_choice(gives, setting("drive.gives")));
+        if (drive.gives == (turns ? ProfileGives::position : ProfileGives::angle))
             refuse(gives, {turns ? "a crank has an angle" : "a carriage has no angle", turns ? "use \"angle\" or \"speed\"" : "use \"position\" or \"speed\""});
-        Node const& file = needed("drive.table", "a profile is a table over time", "add table = \"profile.csv\"");
-        Node const& column = needed("drive.column", "which column of the table is the profile", "add column = \"speed\", or what it is called");
-        auto const units = what == ProfileGives::angle ? std::span(angle_unit) : what == ProfileGives::position ? std::span(place_unit)
-                                                     : std::span(turns ? speed_unit : velocity_unit);
-        auto drive = std::make_shared<SceneDrive>();
-        TableKind const kind{"time", "s", units, repeats(false), interpolation(), what == ProfileGives::angle};
-        if (kind.interpolation == Interpolation::linear && what != ProfileGives::speed)
-            refuse(*reading_.given("drive.interpolation"), {"speeds would jump at each row", "use \"spline\" or \"monotone\", or give speeds"});
-        drive->table = read_table_of(reading_, file, column, read_text_value(column), kind);
-        drive->gives = what;
-        shape(*drive, turns, file);
-        scene_.parts.drive.table = drive->plan_table();
-        scene_.drive = std::move(drive);
+        auto const units = drive.gives == ProfileGives::angle      ? std::span(angle_unit)
+                           : drive.gives == ProfileGives::position ? std::span(place_unit)
+                                                                   : std::span(turns ? speed_unit : velocity_unit);
+        TableKind const kind{"time", "s", units, repeats(false), interpolation(), drive.gives == ProfileGives::angle};
+        if (kind.interpolation == Interpolation::linear && drive.gives != ProfileGives::speed)
+            refuse(given("drive.interpolation"), {"speeds would jump at each row", "use \"spline\" or \"monotone\", or give speeds"});
+        drive.table = read_table(kind);
+        shape(drive, turns, given("drive.table"));
     }
 
     /// A speed becomes what it comes to; a crank begins at start_angle.
@@ -102,30 +87,16 @@ private:
             reading_.warn(fmt::format("{}: {} does not come back by {:.3g} m in a period: {:.3g} m/s are taken off its speeds", file.where, file.name, drift, drift / length));
     }
 
-    void read_torque() {
-        needed("drive.torque", "what the motor turns with", "add torque = \"2 N m\"");
-        Node const* const file = reading_.given("drive.table");
-        if (file == nullptr) {
-            for (std::string_view const name : {"drive.over", "drive.column", "drive.interpolation", "drive.repeats"}) {
-                if (Node const* const idle = reading_.given(name)) refuse(*idle, {"it is of a table, and there is none", "give table, or remove it"});
-            }
-            return;
-        }
-        std::size_t const over = read_choice(needed("drive.over", "what the torque is read over", "add over = \"crank_speed\""), setting("drive.over"));
-        Node const& column = needed("drive.column", "which column of the table is the torque", "add column = \"torque\", or what it is called");
+    void read_torque(SceneDrive& drive) const {
+        std::size_t const over = read_choice(given("drive.over"), setting("drive.over"));
         static constexpr LoadArgument arguments[] = {LoadArgument::crank_speed, LoadArgument::crank_angle, LoadArgument::time};
         static constexpr std::string_view units[] = {"rad/s", "rad", "s"};
         scene_.parts.drive.over = arguments[over];
-        auto drive = std::make_shared<SceneDrive>();
-        drive->table = read_table_of(reading_, *file, column, read_text_value(column),
-                                     {drive_arguments[over], units[over], torque_units, repeats(arguments[over] == LoadArgument::crank_angle), interpolation()});
-        scene_.parts.drive.table = drive->plan_table();
-        scene_.drive = std::move(drive);
+        drive.table = read_table({drive_arguments[over], units[over], torque_units, repeats(arguments[over] == LoadArgument::crank_angle), interpolation()});
     }
 
     Reading& reading_;
     Scene& scene_;
-    DriveBy by_;
 };
 
 }  // namespace
@@ -146,7 +117,7 @@ void choose_drive(Reading& reading) {
     }
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     if (mechanism.drive == DriveKind::none || module_of(scene.parts.mechanism) != nullptr)
-        throw SceneError(fmt::format("{}: drive has no meaning for kind = \"{}\"; remove it", table->where, mechanism.name));
+        refuse_meaningless(table->where, "drive", scene.parts.mechanism);
     scene.parts.drive.by = by;
     if (scene.parts.drive.turns_freely()) {
         auto const form = turning_form(scene.parts.mechanism);
@@ -155,9 +126,7 @@ void choose_drive(Reading& reading) {
     }
 }
 
-void read_drive(Reading& reading) {
-    if (reading.given("drive") != nullptr) DriveReader(reading).read();
-}
+void read_drive(Reading& reading) { DriveReader(reading).read(); }
 
 void finish_drive(Scene& scene) {
     if (scene.parts.drive.by != DriveBy::profile) return;

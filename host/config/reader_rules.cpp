@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "host/config/loads.hpp"
+#include "host/config/drive.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
@@ -46,6 +47,7 @@ constexpr struct {
     {"study", [](Scene const& s) { return std::string(name_of(s.study)); }},
     {"design", [](Scene const& s) { return std::string(name_of(s.design.kind)); }},
     {"parameter", [](Scene const& s) { return std::string(s.chaos.parameter->name); }},
+    {"drive", [](Scene const& s) { return std::string(drive_names[static_cast<int>(s.parts.drive.by)]); }},
     {"kind", [](Scene const& s) { return std::string(kind_of(s.parts.mechanism)); }},
     {"jumping_load", [](Scene const& s) { return std::string(jumping_load(s.loads.get())); }},
     {"rest", [](Scene const& s) { return why_no_period(s.parts); }},

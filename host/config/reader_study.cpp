@@ -142,9 +142,7 @@ std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
 }
 
 std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs, double seconds) {
-    Parts steady = parts;
-    steady.drive = {};
-    double const turn = drive_period(steady, inputs);
+    double const turn = steady_period(parts, inputs);
     if (!std::isfinite(turn)) return {};
     bool const cranks = info(parts.mechanism).drive == DriveKind::crank;
     double const radius = cranks ? inputs.crank_length : inputs.stroke / 2;

@@ -213,6 +213,7 @@ TableFile read_table_file(Reading& reading, Node const& node) {
         if (from == nullptr) continue;
         auto const known = std::ranges::find(from->tables, given, &TableFile::given);
         if (known == from->tables.end()) continue;
+        if (from == &scene && known->key == node.name) return *known;
         TableFile same = *known;
         same.key = node.name;
         return scene.tables.emplace_back(std::move(same));

@@ -31,6 +31,12 @@ bool several_exponents(R r) { return asks_for_exponents(r) && r.scene.chaos.expo
 bool is_whole(Span const& span) { return span.revolutions && span.value == std::floor(span.value); }
 bool begins_anywhere(R r) { return is_sweep(r) && r.scene.chaos.continued && r.scene.chaos.transient.value != 0 && !is_whole(r.scene.chaos.transient); }
 bool steps_in_time(R r) { return by(r, Method::moreau_jean); }
+bool by_drive(R r, DriveBy by) { return r.scene.parts.drive.by == by; }
+bool on_profile(R r) { return by_drive(r, DriveBy::profile); }
+bool on_motor(R r) { return by_drive(r, DriveBy::torque); }
+bool turns_on_profile(R r) { return on_profile(r) && info(r.scene.parts.mechanism).drive == DriveKind::crank; }
+bool gives_drive_table(R r) { return r.given("drive.table") != nullptr; }
+bool no_drive_table(R r) { return !gives_drive_table(r); }
 bool keeps_statistics(R r) { return !r.scene.stores_members(); }
 bool is_drawn(R r) { return of(r, DesignKind::mc) || of(r, DesignKind::lhs) || of(r, DesignKind::sobol); }
 bool not_grid(R r) { return !of(r, DesignKind::grid); }
@@ -75,7 +81,24 @@ constexpr std::string_view columns_begin = "with start = \"continue\" columns be
 
 using enum Known;
 
+constexpr std::string_view other_drive = "drive.kind \"{drive}\" does not have it", another_drive = "remove it, or use another kind";
+constexpr std::string_view what_profile = "what the profile's column is", of_table = "it is of a table, and there is none", give_table = "give table, or remove it";
+
 constexpr KeyRule rows[] = {
+    {mechanism, "drive.torque", on_motor, needs, "what the motor turns with", "add torque = \"2 N m\"", "drive.kind"},
+    {mechanism, "drive.gives", turns_on_profile, needs, what_profile, "add gives = \"angle\" or \"speed\"", "drive.kind"},
+    {mechanism, "drive.gives", on_profile, needs, what_profile, "add gives = \"position\" or \"speed\"", "drive.kind"},
+    {mechanism, "drive.gives", [](R r) { return !on_profile(r); }, excludes, other_drive, another_drive},
+    {mechanism, "drive.table", on_profile, needs, "a profile is a table over time", "add table = \"profile.csv\"", "drive.kind"},
+    {mechanism, "drive.table", [](R r) { return !on_profile(r) && !on_motor(r); }, excludes, other_drive, another_drive},
+    {mechanism, "drive.column", gives_drive_table, needs, "which of the table's columns the drive has", "add column = \"speed\", or what it is called", "drive.kind"},
+    {mechanism, "drive.over", [](R r) { return on_motor(r) && gives_drive_table(r); }, needs, "what the torque is read over", "add over = \"crank_speed\"", "drive.kind"},
+    {mechanism, "drive.over", [](R r) { return !on_motor(r); }, excludes, other_drive, another_drive},
+    {mechanism, "drive.over", no_drive_table, excludes, of_table, give_table},
+    {mechanism, "drive.column", no_drive_table, excludes, of_table, give_table},
+    {mechanism, "drive.interpolation", no_drive_table, excludes, of_table, give_table},
+    {mechanism, "drive.repeats", no_drive_table, excludes, of_table, give_table},
+
     {mechanism, "contact.law", [](R r) { return rigid(r) && info(r.scene.parts.mechanism).driven_form != nullptr; }, excludes,
      "rigid contacts know no crank of a {kind} that turns freely", "use another law, drive.kind = speed or profile, or mechanism.kind = planar_slider_crank"},
     {mechanism, "contact.law", [](R r) { return rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, excludes,
@@ -147,7 +170,7 @@ constexpr KeyRule rows[] = {
     {orbits, "study.start",
      [](R r) { return r.scene.chaos.continued && info(r.scene.parts.mechanism).drive == DriveKind::carriage && r.scene.chaos.section.level != 0; }, excludes,
      "a carriage starts at phase 0, and columns would end at study.phase", "use start = \"fresh\", or phase = 0"},
-    {orbits, "study.start", [](R r) { return r.scene.chaos.continued && r.scene.parts.drive.by == DriveBy::profile; }, excludes,
+    {orbits, "study.start", [](R r) { return r.scene.chaos.continued && on_profile(r); }, excludes,
      "columns begin at time 0, where the drive's profile begins anew", "use start = \"fresh\""},
     {orbits, "study.start", [](R r) { return r.scene.chaos.continued && !jumping_load(r.scene.loads.get()).empty(); }, excludes,
      "columns begin at time 0 in the first turn, where the table of {jumping_load} would jump",

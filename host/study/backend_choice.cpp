@@ -27,6 +27,23 @@ std::string objection_to(Backend const& card, BackendRequest const& request, Isa
     return {};
 }
 
+/// What a scene has and the kernels for cards have not.
+struct CardLack {
+    std::string given;
+    char const* why;
+};
+std::optional<CardLack> lack_of_cards(Scene const& scene) {
+    Parts const& parts = scene.parts;
+    auto const law = [&](char const* why) { return CardLack{fmt::format("contact.law is \"{}\"", contact_info(parts).name), why}; };
+    if (parts.drive.by != DriveBy::speed) return CardLack{"drive.kind is given", "the kernels for cards know no drive but constant speed"};
+    if (MechanismInfo const& mechanism = info(parts.mechanism); !mechanism.on_cards)
+        return CardLack{fmt::format("mechanism.kind is \"{}\"", mechanism.name), "the kernels for cards are of slider_crank alone"};
+    if (parts.rigid) return law("the kernels for cards have no rigid contacts");
+    if (parts.loads.count > 0) return CardLack{fmt::format("{} is given", parts.loads.loads[0].name), "the kernels for cards have no loads"};
+    if (module_of(parts.law) != nullptr) return law("the kernels for cards have no laws of modules");
+    return {};
+}
+
 }  // namespace
 
 std::string backend_text(Backend const& backend) { return fmt::format("{} ({})", backend.name(), backend.machine()); }
@@ -37,28 +54,16 @@ std::uint64_t pays_from(Isa isa, int threads) {
 
 BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members) {
     using Kind = BackendRequest::Kind;
-    MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    bool const steady = scene.parts.drive.by == DriveBy::speed;
-    char const* const lack = !steady                ? "the kernels for cards know no drive but constant speed"
-                             : !mechanism.on_cards   ? "the kernels for cards are of slider_crank alone"
-                             : scene.parts.rigid ? "the kernels for cards have no rigid contacts"
-                             : scene.parts.loads.count > 0 ? "the kernels for cards have no loads"
-                             : module_of(scene.parts.law) != nullptr ? "the kernels for cards have no laws of modules"
-                                                 : nullptr;
+    auto const lack = lack_of_cards(scene);
     if (request.kind == Kind::cuda) {
-        if (lack == nullptr) return {cuda_backend(request.share), ""};
-        bool const of_loads = mechanism.on_cards && !scene.parts.rigid && scene.parts.loads.count > 0;
-        std::string const what = !steady               ? std::string("drive.kind is given")
-                                 : !mechanism.on_cards ? fmt::format("mechanism.kind is \"{}\"", mechanism.name)
-                                 : of_loads          ? fmt::format("{} is given", scene.parts.loads.loads[0].name)
-                                                     : fmt::format("contact.law is \"{}\"", contact_info(scene.parts).name);
-        throw SceneError(fmt::format("{}: {} ({}); use --backend cpu", scene.path, what, lack));
+        if (!lack) return {cuda_backend(request.share), ""};
+        throw SceneError(fmt::format("{}: {} ({}); use --backend cpu", scene.path, lack->given, lack->why));
     }
     Isa const isa = request.isa.value_or(best_isa(scene.parts));
     auto const cpu = cpu_backend(isa);
     if (request.kind == Kind::cpu) return {cpu, ""};
     if (request.isa) return {cpu, "as --isa says"};
-    if (lack != nullptr) return {cpu, lack};
+    if (lack) return {cpu, lack->why};
     try {
         auto const card = cuda_backend(request.share);
         std::string const objection = objection_to(*card, request, isa, scene, members);

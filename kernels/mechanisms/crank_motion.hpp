@@ -10,30 +10,32 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// How something moves that has one coordinate: place, velocity and acceleration, or angle, speed and its rate.
 template <class Real> struct GivenMotion { Real place, velocity, acceleration; };
 
-/// A drive's profile at a time.  Lanes look theirs up one by one.
+/// A drive's profile at a time.  Lanes look theirs up one by one.  @param jerk the acceleration's rate
+template <class Number> SLIDEWAY_FN GivenMotion<Number> looked_up(PieceTable const& table, Number const& t, Number& jerk) {
+    GivenMotion<Number> motion;
+    for (int i = 0; i < lanes<Number>; ++i) {
+        auto const point = table_point(table, lane(t, i));
+        set_lane(motion.place, i, point.value);
+        set_lane(motion.velocity, i, point.slope);
+        set_lane(motion.acceleration, i, point.bend);
+        set_lane(jerk, i, point.jerk);
+    }
+    return motion;
+}
 template <class Real> SLIDEWAY_NOINLINE GivenMotion<Real> profile_motion(PieceTable const& table, Real const& t) {
     if constexpr (is_tangent<Real>) {
-        using Number = decltype(t.value);
-        GivenMotion<Number> motion;
-        Number jerk = t.value;
-        for (int i = 0; i < lanes<Number>; ++i) {
-            auto const point = table_point(table, lane(t.value, i));
-            set_lane(motion.place, i, point.value);
-            set_lane(motion.velocity, i, point.slope);
-            set_lane(motion.acceleration, i, point.bend);
-            set_lane(jerk, i, point.jerk);
-        }
+        auto jerk = t.value;
+        auto const motion = looked_up(table, t.value, jerk);
         return {{motion.place, motion.velocity * t.slope}, {motion.velocity, motion.acceleration * t.slope}, {motion.acceleration, jerk * t.slope}};
     } else {
-        GivenMotion<Real> motion;
-        for (int i = 0; i < lanes<Real>; ++i) {
-            auto const point = table_point(table, lane(t, i));
-            set_lane(motion.place, i, point.value);
-            set_lane(motion.velocity, i, point.slope);
-            set_lane(motion.acceleration, i, point.bend);
-        }
-        return motion;
+        Real jerk;
+        return looked_up(table, t, jerk);
     }
+}
+
+/// A profile times the member's scale, from where it begins.
+template <class Real> SLIDEWAY_FN GivenMotion<Real> scaled(GivenMotion<Real> const& profile, Real scale, Real start) {
+    return {fma(scale, profile.place, start), scale * profile.velocity, scale * profile.acceleration};
 }
 
 /// Angle [rad], speed and acceleration of a crank that is driven: θ0 + ω t, or θ0 and what a profile turns by (docs/model.md 15).
@@ -41,9 +43,7 @@ template <class Real> SLIDEWAY_NOINLINE GivenMotion<Real> profile_motion(PieceTa
 template <class Real, class Parameters>
 SLIDEWAY_FN GivenMotion<Real> driven_crank(DrivePlan const& drive, Real t, Parameters const& p) {
     if (drive.by != DriveBy::profile) return {fma(p.crank_speed, t, p.start_angle), p.crank_speed, Real(0.0)};
-    auto const motion = profile_motion(*drive.table, t);
-    auto const& scale = p.motor.scale;
-    return {fma(scale, motion.place, p.start_angle), scale * motion.velocity, scale * motion.acceleration};
+    return scaled(profile_motion(*drive.table, t), p.motor.scale, p.start_angle);
 }
 
 /// What loads read of the crank of a guide; 0 where none turns.

@@ -21,8 +21,7 @@ SLIDEWAY_FN GivenMotion<Real> planar_crank(DrivePlan const& drive, Real t, Real 
     // A state that is probed has the crank's angle at its own time.
     auto motion = profile_motion(*drive.table, t + p.start_time);
     if (any(p.start_time != Real(0.0))) motion.place = motion.place - profile_motion(*drive.table, p.start_time).place;
-    auto const& scale = p.motor.scale;
-    return {fma(scale, motion.place, p.start_angle), scale * motion.velocity, scale * motion.acceleration};
+    return scaled(motion, p.motor.scale, p.start_angle);
 }
 
 /// Crank and rod, and their common end: the slider's centre.

@@ -54,15 +54,20 @@ protected:
         fs::remove(path("a/s.nc"));
         return hash;
     }
+    /// Begins the run, moves its folder, and goes on there to what it comes to in one go.  @return the hash of that
+    std::string expect_to_go_on_in(std::string const& folder) {
+        std::string const hash = whole_hash();
+        leave_shards();
+        fs::rename(path("a"), path(folder));
+        Outcome const outcome = run_in(folder, {"--resume"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(hash_of(folder + "/s.nc"), hash);
+        return hash;
+    }
 };
 
 TEST_F(TableRun, GoesOnWhereItsFolderWasMoved) {
-    std::string const hash = whole_hash();
-    leave_shards();
-    fs::rename(path("a"), path("b"));
-    Outcome const outcome = run_in("b", {"--resume"});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(hash_of("b/s.nc"), hash);
+    expect_to_go_on_in("b");
     EXPECT_EQ(ResultReader(path("b/s.nc").string()).values("initial_y")[15], 0.07e-3);
     EXPECT_FALSE(fs::exists(path("b/s.nc.shards")));
     // So is a result that is complete.
@@ -179,12 +184,7 @@ protected:
 };
 
 TEST_F(LoadTableRun, GoesOnWhereItsFolderWasMoved) {
-    std::string const hash = whole_hash();
-    leave_shards();
-    fs::rename(path("a"), path("b"));
-    Outcome const outcome = run_in("b", {"--resume"});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(hash_of("b/s.nc"), hash);
+    std::string const hash = expect_to_go_on_in("b");
     EXPECT_FALSE(fs::exists(path("b/s.nc.shards")));
     // The scene that the result has runs again wherever its tables lie beside it.
     write("again.toml", ResultReader(path("b/s.nc").string()).attribute("scene"));
