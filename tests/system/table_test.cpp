@@ -221,5 +221,26 @@ TEST_F(LoadTableRun, WithAnotherTableIsRefusedByItsName) {
     expect_refusal(2, words, resume);
 }
 
+/// The same on a drive whose profile is a table.
+class DriveTableRun : public TableRun {
+protected:
+    DriveTableRun() {
+        write("a/s.toml", std::string(scene) + "[drive]\nkind = \"profile\"\ntable = \"speeds.csv\"\ncolumn = \"speed\"\ngives = \"speed\"\n");
+        write_speeds("a/speeds.csv", 40);
+    }
+    void write_speeds(std::string const& name, int last) const { write(name, fmt::format("time [s], speed [rad/s]\n0, 3\n1 , 20\n2, {}\n", last)); }
+};
+
+TEST_F(DriveTableRun, GoesOnWhereItsFolderWasMoved) {
+    expect_to_go_on_in("b");
+    EXPECT_NE(ResultReader(path("b/s.nc").string()).attribute("scene").find("speeds.csv\"  # 3 rows"), std::string::npos);
+}
+
+TEST_F(DriveTableRun, WithAnotherTableIsRefusedByItsName) {
+    leave_shards();
+    write_speeds("a/speeds.csv", 41);
+    expect_refusal(2, "of another run (drive.table: speeds.csv has changed since the run began, from 3 rows, FNV-1a ", {"run", "a/s.toml", "-o", "a/s.nc", "--resume"});
+}
+
 }  // namespace
 }  // namespace slideway::testing::table_test
