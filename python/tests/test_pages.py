@@ -29,6 +29,11 @@ shorter = {{
     "planar": ["study.duration=10 ms"],
     "crosshead": ["study.members=16", "study.duration=20 ms"],
     "free": ["study.duration=10 ms"],
+    "pump": ["study.members=16"],
+    "press": ["study.members=4", "study.duration=0.2 s"],
+    "end": ["study.members=16"],
+    "shaken": ["study.members=16", "study.duration=0.2 s"],
+    "leaning": ["study.members=16"],
 }}
 line = sys.argv[1:]
 if line[0] == "run":
@@ -63,7 +68,8 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/json.md", "docs/report.md", "docs/results.md", "docs/rigid.md", "docs/tolerance.md"]
+PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/jobs.md", "docs/json.md", "docs/report.md", "docs/results.md", "docs/rigid.md",
+         "docs/tolerance.md"]  # fmt: skip
 
 
 @pytest.fixture
@@ -73,7 +79,8 @@ def shell(program: str, tmp_path: Path) -> Path:
     short = tmp_path / "bin" / "slideway"
     short.write_text(SHORT.format(python=sys.executable, program=str(Path(program).resolve())), encoding="utf-8")
     short.chmod(0o755)
-    (tmp_path / "scenes").symlink_to(root / "scenes")
+    for folder in ("scenes", "examples"):
+        (tmp_path / folder).symlink_to(root / folder)
     (tmp_path / "hunt_crossley.hpp").symlink_to(root / "tests/extending/hunt_crossley.hpp")
     return tmp_path
 

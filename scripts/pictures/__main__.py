@@ -13,6 +13,7 @@ from .drawings import apices, mechanism
 from .figures import bifurcation, energy_residual, heyoka, modes, poincare, tolerance, work_precision
 from .film import film
 from .impacts import rigid
+from .jobs import JOBS
 from .overviews import layers, plots, report, stability
 from .regimes import regimes
 from .style import Picture, largest
@@ -34,7 +35,7 @@ PICTURES: dict[str, Picture] = {
     "layers": layers,
     "plots": plots,
     "report": report,
-}
+} | JOBS
 
 
 def main() -> int:
