@@ -12,6 +12,7 @@ template <class Laws> struct Conditions {
     Laws law;
     bool friction = false;
     bool misaligned_way = false;
+    bool offset_slider = false;
     bool switches = false;   // LawInfo::switches
     bool remembers = false;  // impact speeds: of a damping by restitution
     bool continuous = false;  // LawInfo::continuous, with this damping
@@ -25,6 +26,7 @@ template <class Laws> struct Conditions {
         : law(of_law),
           friction(parts.friction),
           misaligned_way(parts.misaligned_way),
+          offset_slider(parts.offset_slider),
           switches(law_switches),
           remembers(remembers_of(parts)),
           continuous(of_law.continuous() && !remembers),
@@ -39,8 +41,8 @@ template <class Laws> struct Conditions {
         return parts.damping == Damping::restitution;
     }
 
-    /// Whether more acts on the mechanism, or another drive moves it, than weight, contacts and constant speed.
-    SLIDEWAY_FN bool is_plain() const { return loads.count == 0 && drive.by == DriveBy::speed; }
+    /// Whether nothing acts on the mechanism but weight and contacts, it moves at constant speed, and its slider's mass centre and pin lie in its hole's centre.
+    SLIDEWAY_FN bool is_plain() const { return loads.count == 0 && drive.by == DriveBy::speed && !offset_slider; }
     /// Whether there are switches that steps may end at.
     SLIDEWAY_FN bool can_locate_modes() const { return switches && !remembers; }
 };

@@ -34,6 +34,7 @@ struct Parts {
     DrivePlan drive = {};     // what moves the mechanism
     bool rigid = false;       // contacts have no law: kernels/rigid
     LoadList loads = {};      // beside weight, contact and drive
+    bool offset_slider = false;  // mass centre or pin of the slider off its hole's centre
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 
@@ -64,8 +65,8 @@ struct Parts {
     row(reversal_time, "mechanism.reversal_time", 0.02, "s", positive, carriage, "time in which the carriage reverses its direction")  /* t_r */ \
     /* [drive] */ \
     row(drive_torque, "drive.torque", 0, "N m", any, drive, "torque of the motor at rest, or all along, times what its table says")  /* T0 */ \
-    row(drive_no_load_speed, "drive.no_load_speed", 0, "rad/s", not_negative, drive, "speed at which the motor's torque has fallen to 0; 0: it does not fall")  /* ω0 */ \
-    row(drive_viscous, "drive.viscous", 0, "N m s/rad", not_negative, drive, "what the drive's bearings take of the torque with the speed")  /* c */ \
+    row(drive_no_load_speed, "drive.no_load_speed", 0, "rad/s", not_negative, drive, "no-load speed of the motor, at which its torque has fallen to 0; 0: it does not fall")  /* ω0 */ \
+    row(drive_viscous, "drive.viscous", 0, "N m s/rad", not_negative, drive, "viscous friction of the drive's bearings")  /* c */ \
     row(drive_inertia, "drive.inertia", 0, "kg m2", not_negative, drive, "inertia of motor and flywheel, beside the crank's own") \
     row(drive_scale, "drive.scale", 1, "1", any, drive, "what the drive's profile is multiplied by") \
     /* [joint] */ \
@@ -76,9 +77,20 @@ struct Parts {
     row(thickness_z, "joint.thickness_z", follows, "m", positive, spatial, "thickness of material that a Z face compresses")  /* l_b: way_depth */ \
     row(clearance_y, "joint.clearance_y", 1e-4, "m", gap, slider, "clearance per side along Y")  /* c_a */ \
     row(clearance_z, "joint.clearance_z", 1e-4, "m", gap, spatial, "clearance per side along Z")  /* c_b */ \
+    row(clearance_y_plus, "joint.clearance_y_plus", follows, "m", gap, spatial, "clearance of the face that the slider hangs on, where the faces differ")  /* c_+y */ \
+    row(clearance_y_minus, "joint.clearance_y_minus", follows, "m", gap, spatial, "clearance of the face below") \
+    row(clearance_z_plus, "joint.clearance_z_plus", follows, "m", gap, spatial, "clearance of the face on the side of +Z") \
+    row(clearance_z_minus, "joint.clearance_z_minus", follows, "m", gap, spatial, "clearance of the face on the side of -Z") \
     row(slider_height, "joint.slider_height", 0.02, "m", positive, planar, "height of the planar slider")  /* 2b */ \
     row(slider_depth, "joint.slider_depth", 0.03, "m", positive, planar, "depth of the planar slider along Z, from which its mass follows")  /* d */ \
     row(wall, "joint.wall", 0, "m", not_negative, spatial, "thickness of the walls of a hollow slider, from which its mass follows; 0: a solid block of the way's section")  /* t */ \
+    /* [slider] */ \
+    row(mass_center_x, "slider.mass_center_x", 0, "m", any, body, "centre of mass of the slider from its hole's centre, along its X")  /* s_G */ \
+    row(mass_center_y, "slider.mass_center_y", 0, "m", any, body, "centre of mass of the slider from its hole's centre, along its Y") \
+    row(mass_center_z, "slider.mass_center_z", 0, "m", any, body, "centre of mass of the slider from its hole's centre, along its Z") \
+    row(pin_x, "slider.pin_x", 0, "m", any, pin, "pin at which the slider is moved from its hole's centre, along its X")  /* s_P */ \
+    row(pin_y, "slider.pin_y", 0, "m", any, pin, "pin at which the slider is moved from its hole's centre, along its Y") \
+    row(pin_z, "slider.pin_z", 0, "m", any, pin, "pin at which the slider is moved from its hole's centre, along its Z") \
     /* [material] */ \
     row(density, "material.density", 7800, "kg/m3", positive, slider, "density of all bodies, from which masses follow")  /* ρ */ \
     /* [way] */ \
@@ -134,6 +146,22 @@ struct Inputs {
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
 };
+
+/// Of a face: its own clearance, or the one of its axis [m].
+constexpr double face_clearance(double own, double common) { return own == own ? own : common; }
+constexpr double mean_clearance_y(Inputs const& in) {
+    return 0.5 * (face_clearance(in.clearance_y_plus, in.clearance_y) + face_clearance(in.clearance_y_minus, in.clearance_y));
+}
+constexpr double mean_clearance_z(Inputs const& in) {
+    return 0.5 * (face_clearance(in.clearance_z_plus, in.clearance_z) + face_clearance(in.clearance_z_minus, in.clearance_z));
+}
+/// From the way's axis to the middle between its faces [m]: a slider there has the mean clearance to both.
+constexpr double to_middle_y(Inputs const& in) {
+    return 0.5 * (face_clearance(in.clearance_y_minus, in.clearance_y) - face_clearance(in.clearance_y_plus, in.clearance_y));
+}
+constexpr double to_middle_z(Inputs const& in) {
+    return 0.5 * (face_clearance(in.clearance_z_minus, in.clearance_z) - face_clearance(in.clearance_z_plus, in.clearance_z));
+}
 
 /// Of a crank [rad/s].
 constexpr double start_speed(Inputs const& in) { return in.profile_speed == in.profile_speed ? in.drive_scale * in.profile_speed : in.crank_speed; }

@@ -24,6 +24,8 @@ enum class KeyGroup {
     slider,      // every mechanism has one
     spatial,     // a slider with eight apices on a way with four faces
     planar,      // a block between two walls, and its crank
+    body,        // a slider whose centre of mass may lie anywhere
+    pin,         // and its pin
     crank,       // what turns at crank_speed
     links,       // crank and rod
     turning,     // a crank whose own inertia counts

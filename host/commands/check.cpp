@@ -74,7 +74,10 @@ void print_parts(Scene const& scene) {
     sort_out(Damping::rate, fmt::format("damping of {} contacts", rate_damped(info(scene.parts.law))));
     sort_out(Damping::restitution, "restitution");
     sort(scene.parts.friction, "friction");
-    if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
+    if (mechanism.spatial) {
+        sort(scene.parts.misaligned_way, "pose of a misaligned way");
+        sort(scene.parts.offset_slider, "offset of mass centre and pin");
+    }
     if (scene.loads != nullptr) sort(true, loads_text(scene));
     sort(!scene.sample_times.empty(), "time series");
     print_field("parts in", fmt::format("{}", fmt::join(in, "; ")));

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <istream>
 
@@ -33,7 +35,8 @@ std::vector<ExportTable> tables_of(ExportArguments const& arguments, ResultView 
 int execute(ExportArguments const& arguments) {
     std::string const inputs[] = {arguments.path};
     OutputTarget const target(arguments.output, {inputs, arguments.force, is_table_of_result});
-    std::string const ending = std::filesystem::path(arguments.output).extension().string();
+    std::string ending = std::filesystem::path(arguments.output).extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     bool const is_mat = ending == ".mat";
     if (!is_mat && ending != ".csv")
         throw SceneError(fmt::format("-o {}: export writes .csv and .mat; give a name that ends with one of them", arguments.output));

@@ -209,8 +209,16 @@ bool is_idle_source(Key const& key, Parts const& parts, Inputs const& inputs) {
     });
 }
 
+bool lays_way(Key const& key) {
+    static constexpr double Inputs::*of_faces[] = {&Inputs::clearance_y_plus, &Inputs::clearance_y_minus, &Inputs::clearance_z_plus, &Inputs::clearance_z_minus};
+    return key.name.starts_with("way.") || std::ranges::find(of_faces, key.member) != std::end(of_faces);
+}
+
+bool is_of_body(Key const& key) { return key.group == KeyGroup::body || key.group == KeyGroup::pin; }
+
 void require_part(Parts& parts, Key const& key) {
-    if (key.name.starts_with("way.")) parts.misaligned_way = true;
+    if (lays_way(key)) parts.misaligned_way = true;
+    if (is_of_body(key)) parts.offset_slider = true;
     if (key.name.starts_with("friction.")) parts.friction = true;
     if (key.name.starts_with("contact.chi_") && parts.damping == Damping::point) parts.damping = Damping::rate;
     if (key.name == "contact.restitution") parts.damping = Damping::restitution;
@@ -276,7 +284,8 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
         if (!counts_for(key, parts)) continue;
         // A number of a law or mechanism that it takes from others.
         bool const own = key.group == KeyGroup::law || key.group == KeyGroup::mechanism;
-        if (own && std::isnan(key.preset) && std::isnan(key.get(in))) continue;
+        bool const open = own || lays_way(key);
+        if (open && std::isnan(key.preset) && std::isnan(key.get(in))) continue;
         auto problem = broken_rule(key, key.get(in));
         if (!problem) continue;
         if (std::isnan(key.get(inputs))) problem->reason += fmt::format(", and follows from {}", derivation_of(key, parts, in));

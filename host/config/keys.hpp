@@ -50,8 +50,13 @@ bool is_idle_source(Key const& key, Parts const& parts, Inputs const& inputs);
 /// What contact.restitution replaces.
 inline constexpr std::string_view rates_of_damping[] = {"contact.eta", "contact.chi_line", "contact.chi_surface"};
 
+/// Whether a key says where the way's faces lie: way.* and the clearances of single faces.
+bool lays_way(Key const& key);
+/// Whether a key says where the slider's centre of mass or its pin lies: slider.*.
+bool is_of_body(Key const& key);
+
 /// Puts in the kernel part that `key` needs if it is to differ from its default or between members: the way's pose
-/// for way.*, the rates for contact.chi_*, restitution for contact.restitution, friction for friction.*.
+/// for way.* and clearances of single faces, mass centre and pin for slider.*, the rates for contact.chi_*, restitution for contact.restitution, friction for friction.*.
 /// @param key that counts for the parts
 void require_part(Parts& parts, Key const& key);
 

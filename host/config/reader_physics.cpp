@@ -145,7 +145,8 @@ void read_physics(Reading& reading) {
         parts.damping = Damping::rate;
     }
     apply_rules(reading, Known::contacts);
-    parts.misaligned_way = reading.given("way") != nullptr;
+    parts.misaligned_way = reading.given("way") != nullptr || std::ranges::any_of(given_keys(reading), [](GivenKey const& given) { return lays_way(*given.key); });
+    parts.offset_slider = std::ranges::any_of(input_keys, [&](Key const& key) { return is_of_body(key) && key.get(scene.inputs) != 0; });
     parts.friction = reading.given("friction") != nullptr;
     reading.read_table("friction");
 }

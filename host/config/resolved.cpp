@@ -24,7 +24,8 @@ bool is_written(Key const& key, Scene const& scene) {
     if (key.twin != nullptr || !counts_for(key, parts)) return false;
     if (is_idle_source(key, parts, given_or_varied(scene)) && key.get(scene.inputs) == key.preset) return false;
     bool const restitution = parts.damping == Damping::restitution;
-    if (key.name.starts_with("way.")) return parts.misaligned_way;
+    if (lays_way(key)) return parts.misaligned_way;
+    if (is_of_body(key)) return parts.offset_slider;
     if (key.name == "contact.restitution") return restitution;
     return !restitution || std::ranges::count(rates_of_damping, key.name) == 0;
 }

@@ -51,6 +51,11 @@ bool nothing_varies(R r) {
     });
 }
 
+bool gives_both_faces(R r, char axis) {
+    std::string const key = std::string("joint.clearance_") + axis;
+    return r.given(key + "_plus") && r.given(key + "_minus");
+}
+
 bool no_restitution(R r) {
     constexpr std::string_view name = "contact.restitution";
     return needs_restitution(r.scene.parts) && !r.given(name) && !varies(r.scene, name);
@@ -69,6 +74,7 @@ bool has_one_section(R r) {
     return is_sweep(r) && chaos.exponents > 0 && chaos.transient.value == 0 && chaos.span.seconds(turn) < 2 * turn;
 }
 
+constexpr std::string_view each_face = "where both faces have their own";
 constexpr std::string_view replaced = "contact.restitution replaces it", one_of_two = "remove one of the two";
 constexpr std::string_view no_series = "kind = \"{study}\" stores no time series", with_series = "remove it, or use kind = \"ensemble\"";
 constexpr std::string_view values_of_sweep = "a sweep needs its values", give_values = "give study.values, or study.from, study.to and study.points";
@@ -112,6 +118,10 @@ constexpr KeyRule rows[] = {
     {contacts, "contact.chi_line", gives_restitution, excludes, replaced, one_of_two},
     {contacts, "contact.chi_surface", gives_restitution, excludes, replaced, one_of_two},
 
+    {contacts, "joint.clearance_y", [](R r) { return gives_both_faces(r, 'y'); }, idle, each_face},
+    {contacts, "joint.clearance_z", [](R r) { return gives_both_faces(r, 'z'); }, idle, each_face},
+    {variation, "joint.clearance_y", [](R r) { return gives_both_faces(r, 'y'); }, excludes, "both of its faces have their own", "vary those"},
+    {variation, "joint.clearance_z", [](R r) { return gives_both_faces(r, 'z'); }, excludes, "both of its faces have their own", "vary those"},
     {variation, "friction.", [](R r) { return !r.scene.parts.friction; }, excludes, "friction is off", "add a [friction] table"},
     {variation, "contact.eta", by_restitution, excludes, replaced, one_of_two},
     {variation, "contact.chi_", by_restitution, excludes, replaced, one_of_two},

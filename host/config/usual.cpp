@@ -20,6 +20,7 @@ constexpr struct {
     {"contact.edge_radius", "m", 1e-7, 1},
     {"contact.apex_radius", "m", 1e-7, 1},
     {"way.offset", "m", 0, 0.1},
+    {"slider.", "m", 0, 1},
     {"mechanism.", "m", 1e-4, 10},
     {"joint.", "m", 1e-4, 10},
     {"mechanism.start_angle", "rad", 0, 10},

@@ -54,7 +54,7 @@ Look look_at(Scene const& scene, Isa isa) {
             auto problem = unresolved_drive(scene.parts, drawn, schedule.timing ? schedule.timing(drawn).end : schedule.end);
             if (problem) look.unresolved = {member, *std::move(problem)};
         }
-        starts.push_back({member, spatial ? std::min(drawn.clearance_y, drawn.clearance_z) : drawn.clearance_y, {}});
+        starts.push_back({member, spatial ? std::min(mean_clearance_y(drawn), mean_clearance_z(drawn)) : drawn.clearance_y, {}});
         inputs.push_back(drawn);
     }
     std::vector<ProbeResult> const results = probe(isa, scene.parts, inputs, std::vector<double>(inputs.size(), 0.0));

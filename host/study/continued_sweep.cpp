@@ -19,7 +19,7 @@ struct Place {
 /// A state of a joint in another one: places and velocities keep their share of the clearance, tilts that of the tighter
 /// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.
 void put(Inputs& inputs, Inputs const& there, bool spatial) {
-    double const along_y = inputs.clearance_y / there.clearance_y, along_z = inputs.clearance_z / there.clearance_z;
+    double const along_y = mean_clearance_y(inputs) / mean_clearance_y(there), along_z = mean_clearance_z(inputs) / mean_clearance_z(there);
     double const tilt = spatial ? std::min(along_y, along_z) : along_y;
     for (auto const input : {&Inputs::y, &Inputs::vy}) inputs.*input = along_y * there.*input;
     for (auto const input : {&Inputs::z, &Inputs::vz}) inputs.*input = along_z * there.*input;

@@ -91,6 +91,7 @@ ExportTable table_of_series(ResultView const& results, std::vector<std::string> 
     std::erase_if(there, [&](std::string const& name) { return results.dimensions_of(name) != along; });
     if (there.empty()) throw SceneError(results.path() + ": has no time series; run the scene with study.samples, or samples_per_revolution");
     for (std::string const& name : names) {
+        if (std::ranges::count(names, name) > 1) throw SceneError(fmt::format("--series has {} twice; name each series once", name));
         if (std::ranges::count(there, name) > 0) continue;
         std::vector<std::string_view> const known(there.begin(), there.end());
         std::string_view const meant = nearest_name(name, known);

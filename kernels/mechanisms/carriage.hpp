@@ -27,7 +27,7 @@ struct CarriageDrive : DrivenGuide<CarriageDrive> {
         auto info = spatial_slider_info();
         info.name = "carriage";
         info.meaning = "slider moved to and fro along the way at constant speed, as in the paper's experiment";
-        info.keys |= groups_of(KeyGroup::carriage, KeyGroup::drive);
+        info.keys |= groups_of(KeyGroup::carriage, KeyGroup::drive, KeyGroup::body, KeyGroup::pin);
         info.drive = DriveKind::carriage;
         return info;
     }();

@@ -50,6 +50,9 @@ template <class Drive> struct DrivenGuide {
                     .driven = p.slider_mass};
         }
 
+        /// What a force changes of the acceleration.
+        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& force, SliderParameters<Real> const& p) const { return centre(p).response(force); }
+
         SLIDEWAY_FN void put_rates([[maybe_unused]] Vec3<Real> const& acceleration, [[maybe_unused]] Real* rates) const {
             if constexpr (Drive::is_free) {
                 rates[10] = vx;
@@ -83,6 +86,7 @@ template <class Drive> struct DrivenGuide {
             out.mass_y = out.mass_z = p.slider_mass;
             out.mass_yz = Real(0.0);
         }
+        SLIDEWAY_FN Translation<Real> slope() const { return {Real(0.0), Real(0.0)}; }
         SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const { return {force.y, force.z}; }
     };
 

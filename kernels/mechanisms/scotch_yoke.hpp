@@ -16,7 +16,7 @@ struct ScotchYokeDrive : DrivenGuide<ScotchYokeDrive> {
         auto info = spatial_slider_info();
         info.name = "scotch_yoke";
         info.meaning = "slider moved along the way as the cosine of a crank's angle";
-        info.keys |= groups_of(KeyGroup::crank, KeyGroup::drive);
+        info.keys |= groups_of(KeyGroup::crank, KeyGroup::drive, KeyGroup::body, KeyGroup::pin);
         info.drive = DriveKind::crank;
         return info;
     }();

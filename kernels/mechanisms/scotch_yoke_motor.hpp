@@ -50,6 +50,11 @@ struct YokeOnMotor : DrivenGuide<YokeOnMotor> {
             Real const lightness = Real(1.0) / p.slider_mass;
             return {fma(slope_, turning_, bend), fma(force.y, lightness, p.gravity_y), fma(force.z, lightness, p.gravity_z)};
         }
+        /// What a force changes of the acceleration.
+        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& force, SliderParameters<Real> const& p) const {
+            Real const lightness = Real(1.0) / p.slider_mass;
+            return {slope_ * slope_ * force.x / fma(p.slider_mass * slope_, slope_, p.motor.inertia), force.y * lightness, force.z * lightness};
+        }
         SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real* rates) const {
             rates[10] = speed_;
             rates[11] = turning_;

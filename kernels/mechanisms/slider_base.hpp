@@ -53,7 +53,7 @@ struct SliderBase {
 /// The way of a mechanism without crank and rod passes through (0, offset_y, offset_z).
 SLIDEWAY_HD inline SliderParameters<double> parameters_without_rod(Inputs const& in) {
     auto p = slider_parameters(in);
-    p.joint.way.offset.x = 0;
+    p.joint.way.offset.x -= in.rod_length;
     p.rod_mass = p.crank_moment = 0;
     return p;
 }
@@ -74,7 +74,7 @@ struct FreeSliderBase : SliderBase {
 
     SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
         auto p = parameters_without_rod(in);
-        p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(in.clearance_y, in.clearance_z)), 1.0);
+        p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(mean_clearance_y(in), mean_clearance_z(in))), 1.0);
         return p;
     }
 

@@ -107,6 +107,9 @@ public:
         out.mass_yz = p.mass * ky_ * kz_;
     }
 
+    /// κ: x' = κy y' + κz z', but for what the crank does.
+    SLIDEWAY_FN Translation<Real> slope() const { return {ky_, kz_}; }
+
     /// A force (f_x, f_y, f_z) gives f_y + κy f_x and f_z + κz f_x.
     SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const {
         return {fma(ky_, force.x, force.y), fma(kz_, force.x, force.z)};
@@ -127,7 +130,7 @@ struct CrankAndRod {
         info.meaning = "spatial slider-crank, its slider with clearance on a rectangular way";
         info.series = selections::spatial_series;
         info.quantities = selections::all_quantities;
-        info.keys |= groups_of(KeyGroup::crank, KeyGroup::links, KeyGroup::rod_centre, KeyGroup::drive);
+        info.keys |= groups_of(KeyGroup::crank, KeyGroup::links, KeyGroup::rod_centre, KeyGroup::drive, KeyGroup::body, KeyGroup::pin);
         info.drive = DriveKind::crank;
         info.on_cards = true;
         return info;
@@ -163,6 +166,9 @@ struct CrankAndRod {
                     .drive_y = this->pin_.vy,
                     .driven = p.mass + p.m_ab};
         }
+
+        /// What a force changes of the acceleration.
+        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& force, SliderParameters<Real> const& p) const { return centre(p).response(force); }
 
         SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real*) const {}
 

@@ -37,23 +37,19 @@ struct CrankAndRodOnMotor {
         /// A torque on the crank, beside the motor's.
         SLIDEWAY_FN void turn(Real torque) { torque_ = torque_ + torque; }
 
-        /// Three symmetric equations, of (θ, y, z); those of y and z are eliminated first.
         SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& contact_force, SliderParameters<Real> const& p) {
             Real const one(1.0), x = this->pin_.x, y = this->pin_.y;
-            TurningMasses<Real> const m(x, y, ky_, kz_, p);
             auto const f = this->felt(this->weighed(contact_force, p), p);
             // Of the rod's weight what the pin carries, and the crank's.
             Real const carried = fma(p.rod_mass, one - p.rod_mass_center, p.crank_moment / p.crank_length);
             Real const weight = carried * fms(p.gravity_y, x, p.gravity_x * y);
-            Real const of_turning = fma(m.slope, f.pull, fma(p.m_ab * y, this->bias_, weight + torque_));
-            Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
-            Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
-            Real const to_y = fms(kz2, m.by_y, kyz * m.by_z) * scale, to_z = fms(ky2, m.by_z, kyz * m.by_y) * scale;
-            Real const left = fnma(to_z, m.by_z, fnma(to_y, m.by_y, m.own));
-            turning_ = fnma(to_z, f.z, fnma(to_y, f.y, of_turning)) / left;
-            Real const fy = fnma(m.by_y, turning_, f.y), fz = fnma(m.by_z, turning_, f.z);
-            Real const ay = fms(kz2, fy, kyz * fz) * scale, az = fms(ky2, fz, kyz * fy) * scale;
-            return {fma(m.slope, turning_, fma(ky_, ay, fma(kz_, az, this->bias_))), ay, az};
+            auto const a = solved(f, fma(p.m_ab * y, this->bias_, weight + torque_), this->bias_, p);
+            turning_ = a.turning;
+            return a.centre;
+        }
+        /// What a force changes of the acceleration.
+        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& force, SliderParameters<Real> const& p) const {
+            return solved({fma(ky_, force.x, force.y), fma(kz_, force.x, force.z), force.x}, Real(0.0), Real(0.0), p).centre;
         }
 
         SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real* rates) const {
@@ -77,6 +73,25 @@ struct CrankAndRodOnMotor {
 
     private:
         using RodOnPin<Real>::ky_, RodOnPin<Real>::kz_;
+
+        /// Three symmetric equations, of (θ, y, z); those of y and z are eliminated first.
+        struct Solved {
+            Real turning;
+            Vec3<Real> centre;
+        };
+        SLIDEWAY_FN Solved solved(typename RodOnPin<Real>::Felt const& f, Real torque, Real bias, SliderParameters<Real> const& p) const {
+            Real const one(1.0);
+            TurningMasses<Real> const m(this->pin_.x, this->pin_.y, ky_, kz_, p);
+            Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
+            Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
+            Real const to_y = fms(kz2, m.by_y, kyz * m.by_z) * scale, to_z = fms(ky2, m.by_z, kyz * m.by_y) * scale;
+            Real const left = fnma(to_z, m.by_z, fnma(to_y, m.by_y, m.own));
+            Real const turning = fnma(to_z, f.z, fnma(to_y, f.y, fma(m.slope, f.pull, torque))) / left;
+            Real const fy = fnma(m.by_y, turning, f.y), fz = fnma(m.by_z, turning, f.z);
+            Real const ay = fms(kz2, fy, kyz * fz) * scale, az = fms(ky2, fz, kyz * fy) * scale;
+            return {turning, {fma(m.slope, turning, fma(ky_, ay, fma(kz_, az, bias))), ay, az}};
+        }
+
         Real speed_, motor_, torque_;
         Real turning_;  // θ''
     };

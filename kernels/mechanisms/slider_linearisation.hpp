@@ -19,6 +19,20 @@ template <class Real> struct SliderLinearisation {
     Vec3<Real> inertia;            // of ω [kg m²]
     SinCos<Real> roll, yaw;
     Real touching;  // apex–face pairs in contact
+    bool is_coupled = false;  // where turning moves the pin or the centre of mass, in place of these masses:
+    Real coupled_mass[5][5];  // of ν
+
+    /// Takes the masses of a slider whose turning moves its pin or its centre of mass.  @param slope κ of the guide
+    template <class Offset, class Turning, class Parameters>
+    SLIDEWAY_FN void couple(Offset const& offset, Translation<Real> const& slope, Turning const& turning, Parameters const& p) {
+        struct { Real xx, yy, yz, zz; } const of_pin{Real(1.0), mass_y, mass_yz, mass_z};
+        Real six[6][6];
+        offset.put_masses(of_pin, Real(0.0), slope, turning, p, six);
+        for (int i = 0; i < 5; ++i) {
+            for (int j = 0; j < 5; ++j) coupled_mass[i][j] = six[i + 1][j + 1];
+        }
+        is_coupled = true;
+    }
 
     /// Prepares `solve` for one hγ [s].  No pivoting: M is positive definite, and what is added nearly so.
     SLIDEWAY_NOINLINE void factor(Real hg) {
@@ -29,13 +43,7 @@ template <class Real> struct SliderLinearisation {
                 matrix_[i][j] = minus_hg * fma(hg, joint.by_place[i][j], joint.by_rate[i][j]);
             }
         }
-        matrix_[0][0] = matrix_[0][0] + mass_y;
-        matrix_[0][1] = matrix_[0][1] + mass_yz;
-        matrix_[1][0] = matrix_[1][0] + mass_yz;
-        matrix_[1][1] = matrix_[1][1] + mass_z;
-        matrix_[2][2] = matrix_[2][2] + inertia.x;
-        matrix_[3][3] = matrix_[3][3] + inertia.y;
-        matrix_[4][4] = matrix_[4][4] + inertia.z;
+        add_masses();
         factors_.factor(matrix_);
     }
 
@@ -100,6 +108,39 @@ protected:
     Real hg_;
 
 private:
+    SLIDEWAY_FN void add_masses() {
+        if (is_coupled) {
+            for (int i = 0; i < 5; ++i) {
+                for (int j = 0; j < 5; ++j) matrix_[i][j] = matrix_[i][j] + coupled_mass[i][j];
+            }
+            return;
+        }
+        matrix_[0][0] = matrix_[0][0] + mass_y;
+        matrix_[0][1] = matrix_[0][1] + mass_yz;
+        matrix_[1][0] = matrix_[1][0] + mass_yz;
+        matrix_[1][1] = matrix_[1][1] + mass_z;
+        matrix_[2][2] = matrix_[2][2] + inertia.x;
+        matrix_[3][3] = matrix_[3][3] + inertia.y;
+        matrix_[4][4] = matrix_[4][4] + inertia.z;
+    }
+
+    /// M r_ν.
+    SLIDEWAY_FN void put_momenta(Real const* r, Real* b) const {
+        if (is_coupled) {
+            Real const v[5] = {r[2], r[3], r[7], r[8], r[9]};
+            for (int i = 0; i < 5; ++i) {
+                b[i] = coupled_mass[i][0] * v[0];
+                for (int j = 1; j < 5; ++j) b[i] = fma(coupled_mass[i][j], v[j], b[i]);
+            }
+            return;
+        }
+        b[0] = fma(mass_y, r[2], mass_yz * r[3]);
+        b[1] = fma(mass_yz, r[2], mass_z * r[3]);
+        b[2] = inertia.x * r[7];
+        b[3] = inertia.y * r[8];
+        b[4] = inertia.z * r[9];
+    }
+
     /// Trace of M⁻¹(−matrix), of which positive terms alone count.
     SLIDEWAY_FN Real trace(Real const (&matrix)[5][5]) const {
         Real const scale = Real(1.0) / fms(mass_y, mass_z, mass_yz * mass_yz);
@@ -117,11 +158,7 @@ private:
         Real const place[5] = {hg_ * r[0], hg_ * r[1], hg_ * fnma(yaw.sin, r[6], r[4]),
                                hg_ * fma(roll.cos, r[5], roll.sin * upright),
                                hg_ * fms(roll.cos, upright, roll.sin * r[5])};
-        b[0] = fma(mass_y, r[2], mass_yz * r[3]);
-        b[1] = fma(mass_yz, r[2], mass_z * r[3]);
-        b[2] = inertia.x * r[7];
-        b[3] = inertia.y * r[8];
-        b[4] = inertia.z * r[9];
+        put_momenta(r, b);
         for (int i = 0; i < 5; ++i) {
             for (int j = 0; j < 5; ++j) b[i] = fma(joint.by_place[i][j], place[j], b[i]);
         }

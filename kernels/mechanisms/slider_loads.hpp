@@ -41,7 +41,7 @@ template <class Real> struct SliderLoads {
             Load const& load = list.loads[i];
             LoadNumbers<Real> const numbers(load, p.load, arguments);
             if (load.kind == LoadKind::push) sum.add_push(load, numbers, velocity, turning);
-            else if (load.kind == LoadKind::ground_motion) sum.add_ground(numbers.scaled(load.force), velocity, arguments.crank_angle, p);
+            else if (load.kind == LoadKind::ground_motion) sum.add_ground(numbers.scaled(load.force), velocity, turning, arguments.crank_angle, p);
             else sum.add_element(load, numbers, position, velocity, turning);
         }
         sum.crank_power = sum.crank_torque * crank.velocity;
@@ -89,11 +89,16 @@ private:
     }
 
     /// −a of the ground on the masses of slider and rod, the rod's at its ends as its weight.
-    SLIDEWAY_FN void add_ground(Vec3<Real> const& acceleration, Vec3<Real> const& velocity, Real crank_angle, SliderParameters<Real> const& p) {
+    SLIDEWAY_FN void add_ground(Vec3<Real> const& acceleration, Vec3<Real> const& velocity, SliderTurning<Real> const& turning, Real crank_angle,
+                                SliderParameters<Real> const& p) {
         Real const at_slider = fma(p.rod_mass, p.rod_mass_center, p.slider_mass), at_pin = fnma(p.rod_mass, p.rod_mass_center, p.rod_mass);
         auto const on_slider = negated(at_slider) * acceleration;
         force = force + on_slider;
-        ground_power = ground_power + dot(on_slider, velocity);
+        // Each acts where its mass is.
+        auto const along = to_slider(turning.axes, acceleration);
+        auto const twist = negated(p.slider_mass) * cross(p.mass_center, along) - p.rod_mass * p.rod_mass_center * cross(p.pin, along);
+        torque = torque + twist;
+        ground_power = ground_power + (dot(on_slider, velocity) + dot(twist, turning.omega));
         auto const crank = sincos(crank_angle);
         Real const lever = fms(crank.sin, acceleration.x, crank.cos * acceleration.y), of_pin = at_pin * p.crank_length * lever;
         pin_torque = pin_torque + of_pin;

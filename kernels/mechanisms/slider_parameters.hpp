@@ -33,6 +33,7 @@ template <class Real> struct SliderParameters {
     Vec3<Real> inertia;  // I [kg m²]
     Vec3<Real> inverse_inertia;
     JointParameters<Real> joint;
+    Vec3<Real> mass_center, pin;  // s_G, s_P from the hole's centre, along the slider's axes [m]
     Real load[most_load_numbers];  // numbers of the scene's loads
     DriveNumbers<Real> motor;   // and of its drive
     // energy and torque only
@@ -78,8 +79,9 @@ SLIDEWAY_FN LineContact<double> line_contact(double reduced_modulus, double edge
 /// A_l, built like A_k from roll, yaw and pitch.
 SLIDEWAY_FN WayParameters<double> way_parameters(Inputs const& in) {
     auto const e = axes(attitude(in.way_roll, in.way_yaw, in.way_pitch));
-    // The columns of A_l are the way's axes in the inertial frame.
-    return {{in.rod_length, in.way_offset_y, in.way_offset_z}, e.x, e.y, e.z};
+    // The columns of A_l are the way's axes in the inertial frame.  Faces with clearances of their own lie about another middle.
+    auto const middle = to_middle_y(in) * e.y + to_middle_z(in) * e.z;
+    return {Vec3<double>{in.rod_length, in.way_offset_y, in.way_offset_z} + middle, e.x, e.y, e.z};
 }
 
 }  // namespace detail
@@ -111,7 +113,11 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     p.inertia = {in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z};
     p.inverse_inertia = {1 / in.slider_inertia_x, 1 / in.slider_inertia_y, 1 / in.slider_inertia_z};
 
-    p.joint.geometry = {0.5 * in.slider_length, 0.5 * in.way_width, 0.5 * in.way_depth, in.clearance_y, in.clearance_z};
+    p.mass_center = {in.mass_center_x, in.mass_center_y, in.mass_center_z};
+    p.pin = {in.pin_x, in.pin_y, in.pin_z};
+
+    double const clearance_y = mean_clearance_y(in), clearance_z = mean_clearance_z(in);
+    p.joint.geometry = {0.5 * in.slider_length, 0.5 * in.way_width, 0.5 * in.way_depth, clearance_y, clearance_z};
     p.joint.way = detail::way_parameters(in);
 
     double const nu1 = in.slider_poisson_ratio, nu2 = in.way_poisson_ratio;
@@ -140,9 +146,9 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     p.rod_mass_center = center;
     p.rod_spin_mass = spin_mass;
     p.crank_moment = 0.5 * in.crank_mass * in.crank_length;
-    p.length_scale_y = in.clearance_y;
-    p.length_scale_z = in.clearance_z;
-    p.tilt_scale = 2 * min(in.clearance_y, in.clearance_z) / in.slider_length;
+    p.length_scale_y = clearance_y;
+    p.length_scale_z = clearance_z;
+    p.tilt_scale = 2 * min(clearance_y, clearance_z) / in.slider_length;
     p.rate_scale = drive_scale_rate(in);
     return p;
 }

@@ -29,15 +29,27 @@ template <class Real> struct SliderTurning {
     /// Derivatives of φ ϑ ψ ωx ωy ωz.  @param torque τ about the slider's centre [N m] and its axes, both in the frame of the joint.
     SLIDEWAY_CARD_CALL void put_rates(Vec3<Real> const& torque, Axes<Real> const& of_joint, Vec3<Real> const& inertia,
                                Vec3<Real> const& inverse_inertia, Real* rates) const {
+        put_angles(rates);
         auto along = to_slider(of_joint, torque);
         Vec3<Real> momentum{inertia.x * omega.x, inertia.y * omega.y, inertia.z * omega.z};
         auto moment = along - cross(omega, momentum);
-        rates[4] = fma(pitch_rate, angles.yaw.sin, omega.x);
-        rates[5] = fms(omega.y, angles.roll.cos, omega.z * angles.roll.sin);
-        rates[6] = pitch_rate;
         rates[7] = moment.x * inverse_inertia.x;
         rates[8] = moment.y * inverse_inertia.y;
         rates[9] = moment.z * inverse_inertia.z;
+    }
+    /// The same where ω' is known.
+    SLIDEWAY_FN void put_rates(Vec3<Real> const& spin_up, Real* rates) const {
+        put_angles(rates);
+        rates[7] = spin_up.x;
+        rates[8] = spin_up.y;
+        rates[9] = spin_up.z;
+    }
+
+private:
+    SLIDEWAY_FN void put_angles(Real* rates) const {
+        rates[4] = fma(pitch_rate, angles.yaw.sin, omega.x);
+        rates[5] = fms(omega.y, angles.roll.cos, omega.z * angles.roll.sin);
+        rates[6] = pitch_rate;
     }
 };
 

@@ -4,6 +4,7 @@
 #include "kernels/joint/joint.hpp"
 #include "kernels/joint/joint_gaps.hpp"
 #include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/offset_slider.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
 #include "kernels/mechanisms/slider_linearisation.hpp"
 #include "kernels/mechanisms/slider_loads.hpp"
@@ -17,10 +18,10 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// those are the Conditions's.
 /// @tparam Guide what moves the slider along the way.  It has `Base` (SliderBase, or what extends it), `info`, and
 ///  - `At<Real>`, made of (t, state, parameters, drive, faults): position and velocity along the way `x`, `vx`; `accelerations(force, p)`, of the
-///    slider's centre, `put_rates(acceleration, rates)` of what the state has beyond ten numbers, `tell(…)` of the report, and, for rigid joints,
-///    `centre(p)`, the same as numbers;
-///  - `Constraint<Real>`, made of (t, state, parameters, drive): `x`, `vx`, `masses(p, out)` of (vy, vz), and `project(force)`, what a force does to
-///    vy and vz.
+///    slider's centre, `put_rates(acceleration, rates)` of what the state has beyond ten numbers, `tell(…)` of the report, for rigid joints
+///    `centre(p)`, the same as numbers, and where `info` has KeyGroup::body `response(force, p)`, what a force changes of the accelerations;
+///  - `Constraint<Real>`, made of (t, state, parameters, drive): `x`, `vx`, `masses(p, out)` of (vy, vz), `project(force)`, what a force does to
+///    vy and vz, and with KeyGroup::body `slope()`, κ of x' = κy y' + κz z'.
 ///  - `along(t, state, parameters, drive)`: x alone, for a pose; `crank(…)` of them, if it has one: its angle and speed, for loads.
 template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     using Guide = Guide_;
@@ -45,17 +46,22 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     SLIDEWAY_NOINLINE static void linearise(Real t, Real const* s, Numbers<Real> const& p,
                                             ContactMemory<Real> const& memory, Conditions<Laws> const& block,
                                             SliderLinearisation<Real>& out) {
-        typename Guide::template Constraint<Real> const guide(t, s, p, block.drive);
+        auto turning = SliderTurning<Real>::of(s);
+        PinState<Real, Base::size> const at(s, turning, p, may_be_offset && block.offset_slider);
+        typename Guide::template Constraint<Real> const guide(t, at.state, p, block.drive);
         guide.masses(p, out);
         out.inertia = p.inertia;
-        auto turning = SliderTurning<Real>::of(s);
+        if constexpr (may_be_offset) {
+            if (at.is_offset()) out.couple(at.offset, guide.slope(), turning, p);
+        }
         out.roll = turning.angles.roll;
         out.yaw = turning.angles.yaw;
         auto const& slider = turning.axes;
         auto const& way = p.joint.way;
-        Vec3<Real> const velocity{guide.vx, s[2], s[3]};
+        Vec3<Real> place{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+        at.leave_pin(place.x, velocity.x);
         JointFrame<Real> frame;
-        frame.motion = joint_motion(block.misaligned_way, slider, Vec3<Real>{guide.x, s[0], s[1]}, velocity, turning.spin, way);
+        frame.motion = joint_motion(block.misaligned_way, slider, place, velocity, turning.spin, way);
         frame.velocity = {dot(slider.x, velocity), dot(slider.y, velocity), dot(slider.z, velocity)};
         frame.spin = turning.omega;
         frame.x = guide.project(slider.x);
@@ -106,6 +112,8 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     }
 
 private:
+    static constexpr bool may_be_offset = has_group(Guide::info.keys, KeyGroup::body);
+
     /// Under loads, or another drive, a function of its own: what a scene does not have is not even a place on the stack.
     template <bool Full, class Real, class Laws>
     SLIDEWAY_NOINLINE static Faults<Real> loaded_derivative(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
@@ -118,10 +126,12 @@ private:
         auto faults = Faults<Real>::none();
         DrivePlan drive;
         if constexpr (loaded) drive = block.drive;
-        typename Guide::template At<Real> guide(t, s, p, drive, faults);
         auto turning = SliderTurning<Real>::of(s);
+        PinState<Real, Base::size> const at(s, turning, p, may_be_offset && loaded && block.offset_slider);
+        typename Guide::template At<Real> guide(t, at.state, p, drive, faults);
         auto const& way = p.joint.way;
         Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+        if constexpr (loaded) at.leave_pin(position.x, velocity.x);
         auto motion = joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
         Joint<Real, Laws, Full> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
         auto wrench = joint.wrench(faults.contact_domain);
@@ -133,16 +143,25 @@ private:
             force = force + loads.force;
             wrench.torque = wrench.torque + from_slider(motion.axes, loads.torque);
         }
-        auto acceleration = guide.accelerations(force, p);
+        PointMotion<Real> centre{position, velocity, {}};
+        [[maybe_unused]] typename OffsetSlider<Real>::Answer answer;
+        if (loaded && at.is_offset()) {
+            if constexpr (loaded && may_be_offset) answer = at.offset.answer(guide, force, to_slider(motion.axes, wrench.torque), turning, p);
+            centre.acceleration = answer.hole;
+            turning.put_rates(answer.spin_up, rates);
+        } else {
+            centre.acceleration = guide.accelerations(force, p);
+            turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
+        }
         rates[0] = velocity.y;
         rates[1] = velocity.z;
-        rates[2] = acceleration.y;
-        rates[3] = acceleration.z;
-        turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
-        guide.put_rates(acceleration, rates);
+        rates[2] = centre.acceleration.y;
+        rates[3] = centre.acceleration.z;
+        guide.put_rates(centre.acceleration, rates);
         if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
         if constexpr (Full) {
-            guide.tell({position, velocity, acceleration}, turning, force, p, block.powers_alone, *report);
+            if (loaded && at.is_offset()) at.offset.tell(guide, centre, answer, turning, p, block.powers_alone, *report);
+            else guide.tell(centre, turning, force, p, block.powers_alone, *report);
             if constexpr (loaded) loads.tell(drive, *report);
         }
         return faults;
@@ -153,8 +172,9 @@ private:
     SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, Conditions<Laws> const& block) {
         Real const zero(0.0);
         Vec3<Real> const still{zero, zero, zero};
-        return joint_motion(block.misaligned_way, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{Guide::along(t, s, p, block.drive), s[0], s[1]},
-                            still, still, p.joint.way);
+        auto const lies = axes(attitude(s[4], s[5], s[6]));
+        return joint_motion(block.misaligned_way, lies,
+                            Vec3<Real>{along_way<Guide>(t, s, lies, p, block.drive, may_be_offset && block.offset_slider), s[0], s[1]}, still, still, p.joint.way);
     }
 };
 

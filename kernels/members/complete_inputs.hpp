@@ -25,7 +25,7 @@ static inline SliderSolid solid_of(MechanismInfo const& mechanism, Inputs const&
 struct DerivedInput {
     double Inputs::*member;
     std::string_view words;          // of the last parts of keys
-    double (*value)(Inputs const&);  // in SI, from inputs that are given or stand above it in the table
+    double (*value)(Inputs const&);  // in SI, from inputs that are given or stand above it in the table; nullptr where it is left open (face_clearance)
     bool of_one_solid = false;       // it holds for `solid` alone
     SliderSolid solid = SliderSolid::block;
 };
@@ -85,6 +85,10 @@ static constexpr DerivedInput derived_inputs[] = {
      [](Inputs const& in) { return in.slider_mass * (in.slider_length * in.slider_length + in.slider_height * in.slider_height) / 12; }, true,
      SliderSolid::planar},
 
+    {&Inputs::clearance_y_plus, "clearance_y", nullptr},
+    {&Inputs::clearance_y_minus, "clearance_y", nullptr},
+    {&Inputs::clearance_z_plus, "clearance_z", nullptr},
+    {&Inputs::clearance_z_minus, "clearance_z", nullptr},
     {&Inputs::thickness_y, "way_width", [](Inputs const& in) { return in.way_width; }},
     {&Inputs::thickness_z, "way_depth", [](Inputs const& in) { return in.way_depth; }},
     {&Inputs::point_stiffness, "4/3 E* sqrt(apex_radius)",
@@ -108,7 +112,7 @@ static inline DerivedInput const* derivation_of(double Inputs::*member, SliderSo
 static inline Inputs complete_inputs(Inputs given, MechanismInfo const& mechanism = spatial_slider_info()) {
     SliderSolid const solid = solid_of(mechanism, given);
     for (DerivedInput const& rule : derived_inputs) {
-        if (rule.of_one_solid && rule.solid != solid) continue;
+        if (rule.value == nullptr || (rule.of_one_solid && rule.solid != solid)) continue;
         if (std::isnan(given.*rule.member)) given.*rule.member = rule.value(given);
     }
     return given;

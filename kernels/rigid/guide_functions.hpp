@@ -19,7 +19,7 @@ template <class Real> struct RigidSliderParameters : SliderParameters<Real> { Re
 
 /// What a scene chooses of rigid contacts.
 struct RigidConditions {
-    bool friction = false, misaligned_way = false;
+    bool friction = false, misaligned_way = false, offset_slider = false;
     LoadList loads;
     DrivePlan drive;
     double slip_units = 1;          // slip scales
@@ -39,7 +39,7 @@ template <class Real> struct GuideFunctions {
     Derivative* lean;
     Derivative* full;
     JointPairs<Real> (*place)(Real, Real const*, Parameters const&, RigidConditions const&);
-    Real (*along)(Real, Real const*, Parameters const&, DrivePlan const&);
+    Real (*along)(Real, Real const*, Axes<Real> const&, Parameters const&, RigidConditions const&);
 };
 
 /// @tparam Guide what moves the slider along the way (kernels/mechanisms/spatial_slider.hpp)
@@ -58,8 +58,9 @@ template <class Guide> struct RigidGuide {
 
     template <class Real> static JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidConditions const& block) {
         auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> const guide(t, s, p, block.drive, faults);
-        JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
+        Pin<Real> const pin(s, p, is_offset(block));
+        typename Guide::template At<Real> const guide(t, pin.state, p, block.drive, faults);
+        auto at = pairs_of(guide, pin, s, p, block);
         take_up_loads(at, t, s, p, block);
         return at;
     }
@@ -68,8 +69,9 @@ template <class Guide> struct RigidGuide {
     static Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
                                    RigidConditions const& block, Real* rates, RigidSliderReport<Real>* report) {
         auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> const guide(t, s, p, block.drive, faults);
-        JointPairs<Real> at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
+        Pin<Real> const pin(s, p, is_offset(block));
+        typename Guide::template At<Real> const guide(t, pin.state, p, block.drive, faults);
+        auto at = pairs_of(guide, pin, s, p, block);
         auto const loads = take_up_loads(at, t, s, p, block);
         RigidJointContact<Real>* contact = nullptr;
         if constexpr (Full) contact = &report->contact;
@@ -78,22 +80,44 @@ template <class Guide> struct RigidGuide {
             on.force = on.force + loads.force;
             on.torque = on.torque + from_slider(at.motion.axes, loads.torque);
         }
-        auto acceleration = guide.accelerations(on.force, p);
+        PointMotion<Real> centre{{at.x, s[0], s[1]}, at.velocity.linear, {}};
+        typename OffsetSlider<Real>::Answer answer;
+        if (pin.is_offset()) {
+            answer = pin.offset.answer(guide, on.force, to_slider(at.motion.axes, on.torque), at.turning, p);
+            centre.acceleration = answer.hole;
+            at.turning.put_rates(answer.spin_up, rates);
+        } else {
+            centre.acceleration = guide.accelerations(on.force, p);
+            at.turning.put_rates(on.torque, at.motion.axes, p.inertia, p.inverse_inertia, rates);
+        }
         rates[0] = s[2];
         rates[1] = s[3];
-        rates[2] = acceleration.y;
-        rates[3] = acceleration.z;
-        at.turning.put_rates(on.torque, at.motion.axes, p.inertia, p.inverse_inertia, rates);
-        guide.put_rates(acceleration, rates);
+        rates[2] = centre.acceleration.y;
+        rates[3] = centre.acceleration.z;
+        guide.put_rates(centre.acceleration, rates);
         rates[9] = select(on.jammed, Real(not_a_number), rates[9]);
         if constexpr (Full) {
-            Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
-            guide.tell({centre, velocity, acceleration}, at.turning, on.force, p, false, *report);
+            if (pin.is_offset()) pin.offset.tell(guide, centre, answer, at.turning, p, false, *report);
+            else guide.tell(centre, at.turning, on.force, p, false, *report);
             loads.tell(block.drive, *report);
         }
         faults.contact_domain = on.jammed;
         faults.geometry = faults.geometry | ((memory.begun == Real(0.0)) & (on.deepest > Real(1e-6) * p.length_scale_y));
         return faults;
+    }
+
+    template <class Real> using Pin = PinState<Real, Guide::Base::size>;
+    static constexpr bool may_be_offset = has_group(Guide::info.keys, KeyGroup::body);
+    SLIDEWAY_FN static bool is_offset(RigidConditions const& block) { return may_be_offset && block.offset_slider; }
+
+    template <class Real>
+    SLIDEWAY_FN static JointPairs<Real> pairs_of(typename Guide::template At<Real> const& guide, Pin<Real> const& pin, Real const* s,
+                                                 RigidSliderParameters<Real> const& p, RigidConditions const& block) {
+        Real x = guide.x, vx = guide.vx;
+        pin.leave_pin(x, vx);
+        JointPairs<Real> at(guide.centre(p), x, vx, s, p, block.misaligned_way);
+        if (pin.is_offset()) at.move(pin.offset);
+        return at;
     }
 
     /// What loads do to a slider where it is; nothing without them.
@@ -106,8 +130,9 @@ template <class Guide> struct RigidGuide {
         return loads;
     }
 
-    template <class Real> static Real along(Real t, Real const* s, RigidSliderParameters<Real> const& p, DrivePlan const& drive) {
-        return Guide::along(t, s, p, drive);
+    template <class Real>
+    static Real along(Real t, Real const* s, Axes<Real> const& lies, RigidSliderParameters<Real> const& p, RigidConditions const& block) {
+        return along_way<Guide>(t, s, lies, p, block.drive, is_offset(block));
     }
 
     template <class Real>

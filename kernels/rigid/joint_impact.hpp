@@ -53,7 +53,7 @@ public:
     SLIDEWAY_HD ImpactBooks<Real> books() const {
         auto books = ImpactBooks<Real>::none();
         books.capped = count<Real>(capped_);
-        books.work = all_.centre.impulse_work(pairs.load().linear, (pairs.after - pairs.before).linear);
+        books.work = all_.impulse_work(pairs.load(), pairs.after - pairs.before);
         auto const mean = Real(0.5) * (arrival_ + pairs.after);
         for (int k = 0; k < pairs.count(); ++k) {
             auto const& row = pairs.row(k);

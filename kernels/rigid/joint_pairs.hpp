@@ -4,6 +4,7 @@
 #include "kernels/joint/face_pair.hpp"
 #include "kernels/joint/way.hpp"
 #include "kernels/mechanisms/guided_centre.hpp"
+#include "kernels/mechanisms/offset_slider.hpp"
 #include "kernels/mechanisms/slider_loads.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/mechanisms/slider_turning.hpp"
@@ -32,7 +33,8 @@ public:
           turning(SliderTurning<Real>::of(s)),
           motion(joint_motion(misaligned, turning.axes, Vec3<Real>{x, s[0], s[1]}, Vec3<Real>{vx, s[2], s[3]}, turning.spin, p.joint.way)),
           velocity{{vx, s[2], s[3]}, turning.omega},
-          load_torque_{Real(0.0), Real(0.0), Real(0.0)},
+          load_force_{Real(0.0), Real(0.0), Real(0.0)},
+          load_torque_(load_force_),
           p_(p),
           misaligned_(misaligned) {}
 
@@ -44,14 +46,24 @@ public:
 
     /// Takes up what acts on the slider beside weight, contact and drive.
     SLIDEWAY_FN void take_up(SliderLoads<Real> const& loads) {
-        centre.unloaded = centre.unloaded + centre.response(loads.force);
+        if (is_offset_) load_force_ = loads.force;
+        else centre.unloaded = centre.unloaded + centre.response(loads.force);
         load_torque_ = loads.torque;
+    }
+    /// Lets the pin or the centre of mass lie elsewhere, before loads are taken up; `centre` is then the pin's.
+    SLIDEWAY_FN void move(OffsetSlider<Real> const& offset) {
+        offset_ = offset;
+        is_offset_ = true;
     }
 
     SLIDEWAY_FN JointGeometry<Real> const& geometry() const { return p_.joint.geometry; }
 
     /// Change of the velocity by an impulse.
     SLIDEWAY_FN Twist<Real> response(Twist<Real> const& impulse) const {
+        if (is_offset_) {
+            auto const to = offset_.response(PinGuide{centre}, impulse.linear, offset_.about_pin(impulse.linear, impulse.angular, turning, p_), turning, p_);
+            return {to.hole, to.spin_up};
+        }
         auto const& light = p_.inverse_inertia;
         auto const& a = impulse.angular;
         return {centre.response(impulse.linear), {light.x * a.x, light.y * a.y, light.z * a.z}};
@@ -62,9 +74,23 @@ public:
         auto const linear = centre.feel(impulse.linear);
         felt[0] = linear.x, felt[1] = linear.y, felt[2] = linear.z;
         felt[3] = impulse.angular.x, felt[4] = impulse.angular.y, felt[5] = impulse.angular.z;
+        if (!is_offset_) return;
+        // x' of the hole's centre follows its turning too.
+        auto const& axes = turning.axes;
+        auto const along = [&](Vec3<Real> const& axis) {
+            auto const moved = cross(axis, offset_.pin);
+            return fma(centre.slope_y, moved.y, fms(centre.slope_z, moved.z, moved.x));
+        };
+        felt[3] = fma(impulse.linear.x, along(axes.x), felt[3]);
+        felt[4] = fma(impulse.linear.x, along(axes.y), felt[4]);
+        felt[5] = fma(impulse.linear.x, along(axes.z), felt[5]);
     }
     /// Masses and inertias of these components.
     SLIDEWAY_FN void masses(Real (&m)[6][6]) const {
+        if (is_offset_) {
+            offset_.put_masses(centre.masses, centre.free, Translation<Real>{centre.slope_y, centre.slope_z}, turning, p_, m);
+            return;
+        }
         for (auto& row : m) {
             for (auto& entry : row) entry = Real(0.0);
         }
@@ -75,11 +101,23 @@ public:
 
     /// Acceleration without contact: under weight, drive, loads and gyroscopic moment.
     SLIDEWAY_FN Twist<Real> unloaded_acceleration() const {
+        if (is_offset_) {
+            PinGuide by{centre};
+            auto const to = offset_.answer(by, load_force_, load_torque_, turning, p_);
+            return {to.hole, to.spin_up};
+        }
         auto const& w = turning.omega;
         auto const& light = p_.inverse_inertia;
         Vec3<Real> momentum{p_.inertia.x * w.x, p_.inertia.y * w.y, p_.inertia.z * w.z};
         auto moment = cross(momentum, w) + load_torque_;
         return {centre.unloaded, {light.x * moment.x, light.y * moment.y, light.z * moment.z}};
+    }
+
+    /// What the drive does in an impact [J].  @param change of the velocity
+    SLIDEWAY_FN Real impulse_work(Twist<Real> const& impulse, Twist<Real> const& change) const {
+        if (!is_offset_) return centre.impulse_work(impulse.linear, change.linear);
+        auto const turned = from_slider(turning.axes, change.angular);
+        return centre.impulse_work(impulse.linear - p_.slider_mass * cross(turned, offset_.centre), change.linear + cross(turned, offset_.pin));
     }
 
     /// @param number 4 face + place in the face
@@ -159,7 +197,16 @@ private:
                 {dot(axes.x, torque), dot(axes.y, torque), dot(axes.z, torque)}};
     }
 
-    Vec3<Real> load_torque_;  // along the slider's axes [N m]
+    /// The pin's answer as an OffsetSlider asks for it.
+    struct PinGuide {
+        GuidedCentre<Real> const& centre;
+        SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& force, SliderParameters<Real> const&) const { return centre.unloaded + centre.response(force); }
+        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& force, SliderParameters<Real> const&) const { return centre.response(force); }
+    };
+
+    Vec3<Real> load_force_, load_torque_;  // along the ground's and the slider's axes [N], [N m]; the force where the slider is offset
+    OffsetSlider<Real> offset_;
+    bool is_offset_ = false;
     SliderParameters<Real> const& p_;
     bool const misaligned_;
 };

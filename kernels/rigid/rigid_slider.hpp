@@ -39,7 +39,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     GuideFunctions<Tangent<Number>> const* sloped_guide;  // of members with shadows, else nullptr
 
     constexpr RigidSlider(Parts const& parts, GuideFunctions<Number> const* guide, GuideFunctions<Tangent<Number>> const* sloped_guide = nullptr)
-        : block{parts.friction, parts.misaligned_way, parts.loads, parts.drive}, guide(guide), sloped_guide(sloped_guide) {}
+        : block{parts.friction, parts.misaligned_way, parts.offset_slider, parts.loads, parts.drive}, guide(guide), sloped_guide(sloped_guide) {}
 
     SLIDEWAY_HD bool has_loads() const { return block.loads.count > 0; }
     RigidSliderParameters<double> parameters(Inputs const& in) const { return guide->parameters(in); }
@@ -67,8 +67,8 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     SLIDEWAY_FN Real gap(Real t, Real const* s, RigidSliderParameters<Real> const& p, bool z_faces, int apex) const {
         Real const zero(0.0);
         Vec3<Real> const still{zero, zero, zero};
-        auto const pose = joint_motion(block.misaligned_way, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{guide_of<Real>().along(t, s, p, block.drive), s[0], s[1]},
-                                       still, still, p.joint.way);
+        auto const lies = axes(attitude(s[4], s[5], s[6]));
+        auto const pose = joint_motion(block.misaligned_way, lies, Vec3<Real>{guide_of<Real>().along(t, s, lies, p, block), s[0], s[1]}, still, still, p.joint.way);
         return negated(penetration(pose, p.joint.geometry, Apex{z_faces, apex}));
     }
     /// The bit of an apex and its Y or Z face among those that an impact `met`.

@@ -136,6 +136,26 @@ def leaning_way(root: Path) -> str:
     return as_svg(figure)
 
 
+def overhang(root: Path) -> str:
+    """Where both ends of a guide with an overhanging tool lie in its gap, there and back."""
+    half, upper, lower = 30.0, 20.0, 30.0  # of the guide's length [mm], clearances [um]
+    figure, (ax,) = panels(height=3.2)
+    result = _job(root, "overhang.toml", "slider.mass_center_x", [0.045], 0.54, 2701, ["y", "pitch"])
+    middle, turned = 1e6 * result.y.values[0], 1e3 * half * result.pitch.values[0]
+    for side, colour, words in ((1, colours[0], "front, under the tool"), (-1, colours[1], "rear")):
+        ax.plot(1e3 * result.time.values, middle + side * turned, color=colour, lw=1.2, label=words)
+    for limit in (-upper, lower):
+        ax.axhline(limit, color=grey, lw=1, ls="--")
+    for reversal in (250, 520):
+        ax.axvspan(reversal, reversal + 20, color=grey, alpha=0.2, lw=0)
+    ax.text(260, 0, "turns round", color=grey, ha="center", va="center", rotation=90)
+    ax.set_xlim(0, 540)
+    ax.set_ylim(-38, 48)
+    ax.legend(frameon=False, loc="upper left", ncols=2)
+    frame(ax, "time [ms]", "height in the gap [µm]")
+    return as_svg(figure)
+
+
 def export(root: Path) -> str:
     """What other programs read: members from the CSV file, a time series from the MAT file."""
     program = Path(os.environ["SLIDEWAY_PROGRAM"]).resolve()
@@ -187,4 +207,4 @@ def fit(root: Path) -> str:
     return as_svg(figure)
 
 
-JOBS = {f"job_{make.__name__}": make for make in (pump, press, carriage, end_stops, shaken_spring, leaning_way, export, fit)}
+JOBS = {f"job_{make.__name__}": make for make in (pump, press, carriage, end_stops, shaken_spring, leaning_way, overhang, export, fit)}

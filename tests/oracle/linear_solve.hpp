@@ -5,8 +5,8 @@
 
 namespace oracle {
 
-/// Up to ten rows and columns.
-using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 10, 10>;
+/// Up to twelve rows and columns.
+using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 12, 12>;
 
 /// m⁻¹ b by elimination with full pivoting; one column for each of b's.
 Matrix solution(Matrix const& m, Matrix const& b);

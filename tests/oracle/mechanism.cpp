@@ -6,6 +6,7 @@
 
 #include "linear_solve.hpp"
 #include "loads.hpp"
+#include "offset_slider.hpp"
 #include "poses.hpp"
 #include "kernels/mechanisms/list.hpp"
 
@@ -50,7 +51,7 @@ Real motor_torque(Inputs const& in, Parts const& parts, CrankMotion const& crank
     return torque - in.drive_viscous * crank.speed;
 }
 
-Kinematics kinematics_of(Inputs const& in, CrankMotion const& crank, State const& state) {
+Kinematics kinematics_of(Inputs const& in, Parts const& parts, CrankMotion const& crank, State const& state) {
     Kinematics k;
     Real const speed = crank.speed;
     k.angle = crank.angle;
@@ -59,14 +60,20 @@ Kinematics kinematics_of(Inputs const& in, CrankMotion const& crank, State const
     k.pin_acceleration = crank.acceleration * Vector3::UnitZ().cross(k.pin) - speed * speed * k.pin;
 
     Real const y = state[0], z = state[1], vy = state[2], vz = state[3];
-    Real const above = y - k.pin.y();
-    Real const reach = Real(in.rod_length) * in.rod_length - above * above - z * z;
+    SliderMotion const turned = slider_motion(Vector3::Zero(), Vector3::Zero(), state);
+    Matrix3 const attitude = turned.pose.topLeftCorner<3, 3>();
+    Vector3 const arm = pin_of(in, parts, attitude), arm_velocity = (attitude * turned.angular_velocity).cross(arm);
+    Real const above = y + arm.y() - k.pin.y(), aside = z + arm.z();
+    Real const reach = Real(in.rod_length) * in.rod_length - above * above - aside * aside;
     k.reached = reach > 0;
     if (!k.reached) return k;
     Real const along = std::sqrt(reach);
     // (B - A) · (v_B - v_A) = 0
-    Real const vx = k.pin_velocity.x() - (above * (vy - k.pin_velocity.y()) + z * vz) / along;
-    k.slider = slider_motion(Vector3(k.pin.x() + along, y, z), Vector3(vx, vy, vz), state);
+    Real const end_vy = vy + arm_velocity.y(), end_vz = vz + arm_velocity.z();
+    Real const vx = k.pin_velocity.x() - (above * (end_vy - k.pin_velocity.y()) + aside * end_vz) / along;
+    k.end = Vector3(k.pin.x() + along, y + arm.y(), aside);
+    k.end_velocity = Vector3(vx, end_vy, end_vz);
+    k.slider = slider_motion(k.end - arm, k.end_velocity - arm_velocity, state);
     return k;
 }
 
@@ -99,8 +106,8 @@ Matrix4 pose_of_way(Inputs const& in, Parts const& parts) {
 
 Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& contact_force) {
     Real const mass = in.slider_mass, rod = in.rod_mass, fraction = in.rod_mass_center, length = in.rod_length;
-    Vector3 const span = k.slider.centre - k.pin;
-    Vector3 const spread = k.slider.velocity - k.pin_velocity;
+    Vector3 const span = k.end - k.pin;
+    Vector3 const spread = k.end_velocity - k.pin_velocity;
     Vector3 const across_1 = span.unitOrthogonal(), across_2 = span.cross(across_1).normalized();
 
     Eigen::Matrix<Real, 9, 9> matrix = Eigen::Matrix<Real, 9, 9>::Zero();
@@ -132,18 +139,20 @@ Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravit
     return {accelerations.segment<3>(0), accelerations.segment<3>(3)};
 }
 
-Real slider_energy(Inputs const& in, SliderMotion const& slider, Vector3 const& gravity) {
+Real slider_energy(Inputs const& in, Parts const& parts, SliderMotion const& slider, Vector3 const& gravity) {
     Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
-    Real const twice_kinetic = in.slider_mass * slider.velocity.squaredNorm() +
+    Matrix3 const attitude = slider.pose.topLeftCorner<3, 3>();
+    Vector3 const arm = mass_centre_of(in, parts, attitude);
+    Real const twice_kinetic = in.slider_mass * (slider.velocity + (attitude * slider.angular_velocity).cross(arm)).squaredNorm() +
                                slider.angular_velocity.dot(inertia.cwiseProduct(slider.angular_velocity));
-    return twice_kinetic / 2 - in.slider_mass * gravity.dot(slider.centre);
+    return twice_kinetic / 2 - in.slider_mass * gravity.dot(slider.centre + arm);
 }
 
 Real rod_energy(Inputs const& in, Kinematics const& k, Vector3 const& gravity) {
     Real const fraction = in.rod_mass_center, length = in.rod_length;
-    Vector3 const centre = (1 - fraction) * k.pin + fraction * k.slider.centre;
-    Vector3 const velocity = (1 - fraction) * k.pin_velocity + fraction * k.slider.velocity;
-    Vector3 const spin = (k.slider.centre - k.pin).cross(k.slider.velocity - k.pin_velocity) / (length * length);
+    Vector3 const centre = (1 - fraction) * k.pin + fraction * k.end;
+    Vector3 const velocity = (1 - fraction) * k.pin_velocity + fraction * k.end_velocity;
+    Vector3 const spin = (k.end - k.pin).cross(k.end_velocity - k.pin_velocity) / (length * length);
     return (in.rod_mass * velocity.squaredNorm() + in.rod_inertia * spin.squaredNorm()) / 2 -
            in.rod_mass * gravity.dot(centre);
 }

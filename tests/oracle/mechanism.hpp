@@ -19,7 +19,8 @@ SliderMotion slider_motion(Vector3 const& centre, Vector3 const& velocity, State
 struct Kinematics {
     bool reached = true;
     Real angle = 0;  // θ of the crank
-    Vector3 pin, pin_velocity, pin_acceleration;
+    Vector3 pin, pin_velocity, pin_acceleration;  // of the crank
+    Vector3 end, end_velocity;                    // of the rod: the slider's pin
     SliderMotion slider;
 };
 
@@ -31,7 +32,7 @@ CrankMotion crank_motion(Inputs const& in, Parts const& parts, Real t, State con
 Real motor_torque(Inputs const& in, Parts const& parts, CrankMotion const& crank, Real t);
 
 /// Of the mechanism; nothing but the crank where the rod does not reach.
-Kinematics kinematics_of(Inputs const& in, CrankMotion const& crank, State const& state);
+Kinematics kinematics_of(Inputs const& in, Parts const& parts, CrankMotion const& crank, State const& state);
 
 /// The way where the parts have it: misaligned, or along X.  It turns about x = L where there is a rod, else about
 /// x = 0.  @throws std::invalid_argument for a mechanism that is not spatial
@@ -39,6 +40,7 @@ Matrix4 pose_of_way(Inputs const& in, Parts const& parts);
 
 struct Motion {
     Vector3 slider_acceleration, pin_force;
+    Vector3 spin_up = Vector3::Constant(nan);  // ω' along the slider's axes, where it is coupled to them
 };
 
 /// Newton and Euler for rod and slider as free bodies joined at B.  Unknown: a_B, the force on the rod at A and at B.
@@ -47,7 +49,7 @@ struct Motion {
 Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& contact_force);
 
 /// Energy [J] of a body: kinetic and of its weight.
-Real slider_energy(Inputs const& in, SliderMotion const& slider, Vector3 const& gravity);
+Real slider_energy(Inputs const& in, Parts const& parts, SliderMotion const& slider, Vector3 const& gravity);
 Real rod_energy(Inputs const& in, Kinematics const& k, Vector3 const& gravity);
 
 }  // namespace oracle::detail

@@ -10,6 +10,7 @@
 #include "laws.hpp"
 #include "loads.hpp"
 #include "mechanism.hpp"
+#include "offset_slider.hpp"
 #include "pairs.hpp"
 #include "poses.hpp"
 #include "kernels/mechanisms/list.hpp"
@@ -32,14 +33,18 @@ struct Placed {
 };
 
 Placed placed(Inputs const& in, Parts const& parts, CrankMotion const& turning, Real t, State const& state) {
-    auto const along = [&state](AlongTheWay const& drive) {
-        Vector3 const centre(drive.x, state[0], state[1]), velocity(drive.vx, state[2], state[3]);
+    auto const along = [&](AlongTheWay const& drive) {
+        // What the drive moves is the pin.
+        SliderMotion const turned = slider_motion(Vector3::Zero(), Vector3::Zero(), state);
+        Matrix3 const attitude = turned.pose.topLeftCorner<3, 3>();
+        Vector3 const arm = pin_of(in, parts, attitude), arm_velocity = (attitude * turned.angular_velocity).cross(arm);
+        Vector3 const centre(drive.x - arm.x(), state[0], state[1]), velocity(drive.vx - arm_velocity.x(), state[2], state[3]);
         return Placed{true, {}, drive, slider_motion(centre, velocity, state)};
     };
     switch (parts.mechanism) {
         case Mechanism::slider_crank:
         case Mechanism::slider_crank_motor: {
-            Kinematics const crank = kinematics_of(in, turning, state);
+            Kinematics const crank = kinematics_of(in, parts, turning, state);
             return {crank.reached, crank, {}, crank.slider};
         }
         case Mechanism::carriage: {
@@ -64,7 +69,7 @@ Placed placed(Inputs const& in, Parts const& parts, CrankMotion const& turning, 
 /// What the ground's acceleration does to the rod [W].
 Real rod_ground_power(Inputs const& in, Kinematics const& k, Vector3 const& ground) {
     Real const share = in.rod_mass_center;
-    return -in.rod_mass * ground.dot((1 - share) * k.pin_velocity + share * k.slider.velocity);
+    return -in.rod_mass * ground.dot((1 - share) * k.pin_velocity + share * k.end_velocity);
 }
 
 /// A crank that turns freely: J θ'' = T + (r/2 × m_c g) + T_load − (torque that it gives away).
@@ -94,7 +99,7 @@ void report_crank(Inputs const& in, Kinematics const& k, Motion const& motion, V
     result.crank_torque = static_cast<double>(torque);
     Vector3 const crank_weight = Real(in.crank_mass) * gravity;
     result.crank_torque_with_weight = static_cast<double>(torque - (k.pin / 2).cross(crank_weight).z());
-    Vector3 const span = k.slider.centre - k.pin, spread = k.slider.velocity - k.pin_velocity;
+    Vector3 const span = k.end - k.pin, spread = k.end_velocity - k.pin_velocity;
     result.rod_angular_velocity = array_of(span.cross(spread) / span.squaredNorm());
     result.pin_force = array_of(motion.pin_force);
     Real const rod_length = in.rod_length;
@@ -160,37 +165,54 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     Vector3 const gravity = -Real(in.gravity) * Vector3(std::sin(beta), std::cos(beta) * std::cos(gamma), std::cos(beta) * std::sin(gamma));
     // What a mass feels on ground that is accelerated.
     Vector3 const felt = gravity - loads.ground;
-    Vector3 acceleration = force / in.slider_mass + felt;
-    Real energy = slider_energy(in, slider, gravity) + joint.potential + loads.potential;
-    Real ground_power = -in.slider_mass * loads.ground.dot(slider.velocity);
+    Vector3 acceleration;
+    Matrix3 const attitude = slider.pose.topLeftCorner<3, 3>();
+    Vector3 const& spin = slider.angular_velocity;
+    Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
+    Vector3 const torque = joint.torque + loads.torque, gyroscopic = spin.cross(inertia.cwiseProduct(spin));
+    Vector3 spin_up = (attitude.transpose() * torque - gyroscopic).cwiseQuotient(inertia);
+    auto const on_rod = [&](Kinematics const& k) { return parts.offset_slider ? solve_offset_motion(in, k, felt, force, torque) : solve_motion(in, k, felt, force); };
+    auto const guided = [&](std::optional<Real> ax) {
+        if (parts.offset_slider) return solve_guided_motion(in, parts, slider, felt, force, torque, ax);
+        Vector3 const all = force / in.slider_mass + felt;
+        if (!ax) return Motion{all, Vector3::Zero()};
+        // The drive gives what the joint and the weight leave of M x''.
+        return Motion{Vector3(*ax, all.y(), all.z()), Vector3(in.slider_mass * (*ax - all.x()), 0, 0)};
+    };
+    auto const take = [&](Motion const& motion) {
+        acceleration = motion.slider_acceleration;
+        if (parts.offset_slider) spin_up = motion.spin_up;
+        return motion;
+    };
+    Real energy = slider_energy(in, parts, slider, gravity) + joint.potential + loads.potential;
+    Vector3 const mass_centre_velocity = slider.velocity + (attitude * spin).cross(mass_centre_of(in, parts, attitude));
+    Real ground_power = -in.slider_mass * loads.ground.dot(mass_centre_velocity);
     Result result;
     Turning const free{in, parts, felt, motor_torque(in, parts, turning, t), loads.crank_torque};
     switch (parts.mechanism) {
         case Mechanism::slider_crank_motor: {
             turning.acceleration = free.acceleration([&](Real by) {
-                auto const k = kinematics_of(in, {turning.angle, turning.speed, by}, state);
-                return k.pin.cross(solve_motion(in, k, felt, force).pin_force).z();
+                auto const k = kinematics_of(in, parts, {turning.angle, turning.speed, by}, state);
+                return k.pin.cross(on_rod(k).pin_force).z();
             }, crank.pin);
-            crank = kinematics_of(in, turning, state);
-            Motion const motion = solve_motion(in, crank, felt, force);
-            acceleration = motion.slider_acceleration;
+            crank = kinematics_of(in, parts, turning, state);
+            Motion const motion = take(on_rod(crank));
             energy += rod_energy(in, crank, gravity);
             report_crank(in, crank, motion, felt, result);
             ground_power += rod_ground_power(in, crank, loads.ground);
             break;
         }
         case Mechanism::scotch_yoke_motor: {
-            auto const push = [&](Real by) { return in.slider_mass * (placed(in, parts, {turning.angle, turning.speed, by}, t, state).drive.ax - acceleration.x()); };
+            auto const push = [&](Real by) { return guided(placed(in, parts, {turning.angle, turning.speed, by}, t, state).drive.ax).pin_force.x(); };
             Real const lever = -Real(in.crank_length) * std::sin(turning.angle);
             turning.acceleration = free.acceleration([&](Real by) { return push(by) * lever; }, Vector3::Zero());
             drive = placed(in, parts, turning, t, state).drive;
-            acceleration.x() = drive.ax;
+            take(guided(drive.ax));
             result.ideal_x = static_cast<double>(drive.x);
             break;
         }
         case Mechanism::slider_crank: {
-            Motion const motion = solve_motion(in, crank, felt, force);
-            acceleration = motion.slider_acceleration;
+            Motion const motion = take(on_rod(crank));
             energy += rod_energy(in, crank, gravity);
             report_crank(in, crank, motion, felt, result);
             ground_power += rod_ground_power(in, crank, loads.ground);
@@ -203,14 +225,12 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
         }
         case Mechanism::carriage:
         case Mechanism::scotch_yoke: {
-            // The drive gives what the joint and the weight leave of M x''.
-            Real const push = in.slider_mass * (drive.ax - acceleration.x());
-            acceleration.x() = drive.ax;
-            result.power_crank = static_cast<double>(push * drive.vx);
+            result.power_crank = static_cast<double>(take(guided(drive.ax)).pin_force.x() * drive.vx);
             result.ideal_x = static_cast<double>(drive.x);
             break;
         }
         case Mechanism::free_slider:
+            take(guided({}));
             result.derivative[10] = state[11];
             result.derivative[11] = static_cast<double>(acceleration.x());
             result.ideal_x = std::numeric_limits<double>::quiet_NaN();
@@ -237,11 +257,6 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     result.power_ground = static_cast<double>(ground_power);
     result.energy = static_cast<double>(energy);
 
-    Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
-    Matrix3 const attitude = slider.pose.topLeftCorner<3, 3>();
-    Vector3 const& spin = slider.angular_velocity;
-    Vector3 const gyroscopic = spin.cross(inertia.cwiseProduct(spin));
-    Vector3 const spin_up = (attitude.transpose() * (joint.torque + loads.torque) - gyroscopic).cwiseQuotient(inertia);
     Vector3 const angle_rates = euler_rates(slider.roll, slider.yaw, spin);
     for (int i = 0; i < 2; ++i) result.derivative[i] = state[2 + i];
     for (int i = 0; i < 2; ++i) result.derivative[2 + i] = static_cast<double>(acceleration[1 + i]);

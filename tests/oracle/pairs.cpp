@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "poses.hpp"
 
@@ -21,14 +22,23 @@ PairTable pairs_of(Inputs const& in, SliderMotion const& motion, Matrix4 const& 
     Vector3 const centre = slider.topRightCorner<3, 1>();
     Vector3 const velocity = slider_rate.topRightCorner<3, 1>();
     Vector3 const angular_velocity = attitude * motion.angular_velocity;
-    Real const half_hole[3] = {0, Real(in.way_width) / 2 + in.clearance_y, Real(in.way_depth) / 2 + in.clearance_z};
+    // The hole is the way and both clearances wide; a slider in the middle of the frame has each face's to it.
+    auto const own = [](double face, double common) { return Real(std::isnan(face) ? common : face); };
+    Real const plus[3] = {0, own(in.clearance_y_plus, in.clearance_y), own(in.clearance_z_plus, in.clearance_z)};
+    Real const minus[3] = {0, own(in.clearance_y_minus, in.clearance_y), own(in.clearance_z_minus, in.clearance_z)};
+    Real const widths[3] = {0, in.way_width, in.way_depth};
+    Real half_hole[3] = {}, middle[3] = {};
+    for (int axis : {1, 2}) {
+        half_hole[axis] = (widths[axis] + plus[axis] + minus[axis]) / 2;
+        middle[axis] = half_hole[axis] - plus[axis] - widths[axis] / 2;
+    }
 
     PairTable table;
     for (int i = 0; i < 8; ++i) {
         auto const [s1, s2, s3] = apices[i];
         // The contact segment of the way runs along with the slider.
-        Vector4 const apex(centre.x() + s3 * Real(in.slider_length) / 2, s1 * Real(in.way_width) / 2,
-                           s2 * Real(in.way_depth) / 2, 1);
+        Vector4 const apex(centre.x() + s3 * Real(in.slider_length) / 2, middle[1] + s1 * Real(in.way_width) / 2,
+                           middle[2] + s2 * Real(in.way_depth) / 2, 1);
         Vector4 const apex_rate(velocity.x(), 0, 0, 0);
         Vector4 const in_slider = into_slider * apex;
         // R = T⁻¹ P  ⇒  R' = T⁻¹ (P' - T' R)

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "linear_solve.hpp"
 #include "mechanism.hpp"
+#include "offset_slider.hpp"
 #include "pairs.hpp"
 #include "poses.hpp"
 #include "kernels/mechanisms/list.hpp"
@@ -37,12 +39,14 @@ SliderPlace SliderFrame::start() const {
     p.centre = Vector3(in_.x, in_.y, in_.z), p.velocity = Vector3(in_.vx, in_.vy, in_.vz);
     p.attitude = Turn(in_.pitch, Vector3::UnitZ()) * Turn(in_.yaw, Vector3::UnitY()) * Turn(in_.roll, Vector3::UnitX());
     p.spin = Vector3(in_.wx, in_.wy, in_.wz);
-    auto const along = [&](AlongTheWay const& drive) { p.centre.x() = drive.x, p.velocity.x() = drive.vx; };
+    Matrix3 const attitude = p.attitude.toRotationMatrix();
+    Vector3 const arm = pin_of(in_, parts_, attitude), arm_velocity = (attitude * p.spin).cross(arm);
+    auto const along = [&](AlongTheWay const& drive) { p.centre.x() = drive.x - arm.x(), p.velocity.x() = drive.vx - arm_velocity.x(); };
     if (parts_.mechanism == Mechanism::carriage) along(carriage_motion(in_, 0));
     if (parts_.mechanism == Mechanism::scotch_yoke) along(scotch_yoke_motion(in_, 0));
     if (parts_.mechanism == Mechanism::slider_crank) {
-        State state{in_.y, in_.z, in_.vy, in_.vz};
-        Kinematics const k = kinematics_of(in_, crank_motion(in_, parts_, 0, {}), state);
+        State state{in_.y, in_.z, in_.vy, in_.vz, in_.roll, in_.yaw, in_.pitch, in_.wx, in_.wy, in_.wz};
+        Kinematics const k = kinematics_of(in_, parts_, crank_motion(in_, parts_, 0, {}), state);
         p.centre = k.slider.centre, p.velocity = k.slider.velocity;
     }
     return p;
@@ -63,26 +67,42 @@ void SliderFrame::move_to(SliderPlace const& place) {
     turn_ = attitude_ * place.spin;
 
     Real const mass = in_.slider_mass;
-    Vector6 force;
-    force << mass * gravity_, -place.spin.cross(inertia_.cwiseProduct(place.spin));
-    Matrix6 inverse_mass = Matrix6::Zero();
-    inverse_mass.diagonal() << Vector3::Constant(1 / mass), inertia_.cwiseInverse();
-    energy_ = mass * place.velocity.squaredNorm() / 2 + place.spin.dot(inertia_.cwiseProduct(place.spin)) / 2 -
-              mass * gravity_.dot(place.centre);
-    add_drive(force, inverse_mass);
+    Vector3 const centre = mass_centre_of(in_, parts_, place.attitude.toRotationMatrix());
+    Jacobian const moves = jacobian(centre);
+    Vector6 force = moves.transpose() * (mass * (gravity_ - pull(centre)));
+    force.tail<3>() -= place.spin.cross(inertia_.cwiseProduct(place.spin));
+    Matrix6 masses = mass * moves.transpose() * moves;
+    masses.diagonal().tail<3>() += inertia_;
+    energy_ = mass * (moves * place.rates()).squaredNorm() / 2 + place.spin.dot(inertia_.cwiseProduct(place.spin)) / 2 -
+              mass * gravity_.dot(place.centre + centre);
+    add_drive(force, masses);
+}
+
+SliderFrame::Jacobian SliderFrame::jacobian(Vector3 const& r) const {
+    Jacobian j;
+    j << Matrix3::Identity(), -cross_matrix(r) * place_.attitude.toRotationMatrix();
+    return j;
+}
+
+Vector3 SliderFrame::pull(Vector3 const& r) const {
+    Vector3 const spin = place_.attitude.toRotationMatrix() * place_.spin;
+    return spin.cross(spin.cross(r));
 }
 
 /// The drive's force acts along a direction, in which it prescribes the acceleration.
-void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_inverse) {
+void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_masses) {
     Vector6 force = slider_force, direction = Vector6::Zero();
-    Matrix6 inverse = slider_inverse;
+    Matrix6 masses = slider_masses;
     Real along = 0;
+    Vector3 const arm = pin_of(in_, parts_, place_.attitude.toRotationMatrix());
+    Jacobian const moves = jacobian(arm);
+    auto const along_x = [&](Real acceleration) { direction = moves.row(0).transpose(), along = acceleration - pull(arm).x(); };
     switch (parts_.mechanism) {
         case Mechanism::carriage:
-            direction[0] = 1, along = carriage_motion(in_, place_.time).ax;
+            along_x(carriage_motion(in_, place_.time).ax);
             break;
         case Mechanism::scotch_yoke:
-            direction[0] = 1, along = scotch_yoke_motion(in_, place_.time).ax;
+            along_x(scotch_yoke_motion(in_, place_.time).ax);
             break;
         case Mechanism::slider_crank: {
             // The rod is two masses and their coupling (M6.2); |AB| = L is differentiated twice.
@@ -92,10 +112,11 @@ void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_i
             Real const speed = in_.crank_speed, angle = Real(in_.start_angle) + speed * place_.time;
             Vector3 const pin = Real(in_.crank_length) * Vector3(std::cos(angle), std::sin(angle), 0);
             Vector3 const pin_velocity = speed * Vector3::UnitZ().cross(pin), pin_acceleration = -speed * speed * pin;
-            inverse.diagonal().head<3>().setConstant(1 / (Real(in_.slider_mass) + at_slider));
-            force.head<3>() += rod * part * gravity_ - coupling * pin_acceleration;
-            direction.head<3>() = place_.centre - pin;
-            along = direction.head<3>().dot(pin_acceleration) - (place_.velocity - pin_velocity).squaredNorm();
+            masses += at_slider * moves.transpose() * moves;
+            force += moves.transpose() * (rod * part * gravity_ - coupling * pin_acceleration - at_slider * pull(arm));
+            Vector3 const span = place_.centre + arm - pin, relative = moves * place_.rates() - pin_velocity;
+            direction = moves.transpose() * span;
+            along = span.dot(pin_acceleration - pull(arm)) - relative.squaredNorm();
             break;
         }
         case Mechanism::slider_crank_motor:
@@ -105,10 +126,10 @@ void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_i
         case Mechanism::planar_slider_crank:
             break;
     }
-    mobility_ = inverse;
-    free_ = inverse * force;
+    mobility_ = solution(masses, Matrix6::Identity());
+    free_ = mobility_ * force;
     if (direction.isZero(0)) return;
-    Vector6 const yields = inverse * direction;
+    Vector6 const yields = mobility_ * direction;
     Real const weight = direction.dot(yields);
     mobility_ -= yields * yields.transpose() / weight;
     free_ += yields * ((along - direction.dot(free_)) / weight);

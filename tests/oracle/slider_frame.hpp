@@ -58,7 +58,11 @@ private:
         Vector3 arm;
     };
     [[nodiscard]] Apex3 apex(int number) const;
-    void add_drive(Vector6 const& force, Matrix6 const& inverse_mass);
+    using Jacobian = Eigen::Matrix<Real, 3, 6>;
+    /// Of a point of the slider at r from the hole's centre: velocity = jacobian · rates, acceleration = jacobian · rates' + pull.
+    [[nodiscard]] Jacobian jacobian(Vector3 const& r) const;
+    [[nodiscard]] Vector3 pull(Vector3 const& r) const;
+    void add_drive(Vector6 const& force, Matrix6 const& mass);
 
     Inputs in_;
     Parts parts_;

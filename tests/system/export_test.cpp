@@ -104,6 +104,8 @@ TEST_F(Export, RefusesInOneLine) {
     ASSERT_EQ(run_scene({"-o", "statistics.nc", "--set", "study.store=statistics", "study.samples=0"}).code, 0);
     expect_refusal(2, "-o o.xls: export writes .csv and .mat; give a name that ends with one of them", {"export", "s.nc", "-o", "o.xls"});
     expect_refusal(2, "s.nc: has no series 'vyy'; did you mean vy?", {"export", "s.nc", "-o", "o.csv", "--series", "vyy"});
+    expect_refusal(2, "--series has vy twice; name each series once", {"export", "s.nc", "-o", "o.csv", "--series", "vy,vy"});
+    EXPECT_EQ(run({"export", "s.nc", "-o", "o.CSV"}).code, 0);
     expect_refusal(2, "s.nc: has no sections; run the scene with", {"export", "s.nc", "-o", "o.mat", "--sections"});
     expect_refusal(2, "two tables, and a CSV file holds one", {"export", "s.nc", "-o", "o.csv", "--sections", "--series", "y"});
     expect_refusal(2, "statistics.nc: keeps statistics, no members", {"export", "statistics.nc", "-o", "o.csv"});

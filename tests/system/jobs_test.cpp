@@ -180,6 +180,20 @@ TEST(Jobs, ShakenSpringTakesThePowerOfItsResonanceCurve) {
     }
 }
 
+TEST(Jobs, OverhangPressesItsEdgesAsItsMomentsSay) {
+    // At constant speed, between the landing after the start and the reversal.
+    auto const until = [](char const* seconds) {
+        return std::string("--set study.members=2 --set study.verify=0 --set 'study.vary={\"initial.vz\"={dist=\"const\",value=0}}' --set study.duration=") + seconds;
+    };
+    Job const late("overhang.toml", until("0.24")), early("overhang.toml", until("0.16"));
+    // The tool's weight is held up by the front's top and the rear's bottom: N_f − N_r = M g, and about the hole's centre
+    // l (N_f + N_r) + h μ (N_f − N_r) − y_P μ (N_f + N_r) = M g x_G.
+    double const mass = 1.2, mu = 0.12, l = 0.03, h = 0.01, pin = -0.025, overhang = 0.045;
+    double const press = mass * weight * (overhang - h * mu) / (l - pin * mu);
+    EXPECT_NEAR(late.mean("friction_loss") - early.mean("friction_loss"), mu * press * 0.2 * 0.08, 3e-3 * mu * press * 0.2 * 0.08);
+    EXPECT_NEAR(late.mean("crank_work") - early.mean("crank_work"), mu * press * 0.2 * 0.08, 3e-3 * mu * press * 0.2 * 0.08);
+}
+
 TEST(Jobs, LeaningWayPressesOnTwoFaces) {
     std::string const alike = "--set study.members=4 --set study.verify=0 --set 'study.vary={\"initial.vy\"={dist=\"const\",value=0}}'";
     Job const job("leaning_way.toml", alike);

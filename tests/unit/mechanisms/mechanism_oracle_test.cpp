@@ -272,6 +272,17 @@ private:
     testing::Pieces wave_{{{0, 1, 2, 0, 0}, {0.5, 2, 0, -8, 0}, {1, 0, 1, 0, 0}}, 2, true};
 };
 
+/// Faces with clearances of their own, about a middle that keeps the case's touches where the way is not turned.
+void put_face_clearances(oracle::Case& c, double share) {
+    Inputs& in = c.inputs;
+    double const y = 0.7 * share * in.clearance_y, z = -0.9 * share * in.clearance_z;
+    in.clearance_y_plus = in.clearance_y + y, in.clearance_y_minus = in.clearance_y - y;
+    in.clearance_z_plus = in.clearance_z + z, in.clearance_z_minus = in.clearance_z - z;
+    if (!c.parts.misaligned_way) in.way_offset_y = in.way_offset_z = in.way_roll = in.way_yaw = in.way_pitch = 0;
+    in.way_offset_y += y, in.way_offset_z += z;
+    c.parts.misaligned_way = true;
+}
+
 TEST(ElementsAgainstOracle, AgreeOnThousandsOfStates) {
     for (Mechanism const mechanism : oracle::spatial_mechanisms()) {
         RandomElements elements(46);
@@ -291,6 +302,33 @@ TEST(ElementsAgainstOracle, AgreeOnThousandsOfStates) {
         auto const x = oracle::PlanarMechanism(c.inputs, c.parts).at(oracle::planar_start(c.inputs)).x;
         elements.put(c.inputs, c.parts, i, static_cast<double>(x));
         compare_planar_probe(best_isa(), c, "planar case " + std::to_string(i));
+    }
+}
+
+/// Where mass centre and pin lie, and four faces with clearances of their own, on cases with loads, drives and the ground's motion.
+TEST(OffsetSlidersAgainstOracle, AgreeOnThousandsOfStates) {
+    testing::Pieces const falls({{0, 1, -0.01, 0, 1e-7}, {100, 0.1, 0, -1e-6, 0}}, 400);
+    for (Mechanism const mechanism : oracle::spatial_mechanisms()) {
+        RandomLoads loads(48);
+        RandomElements elements(49);
+        std::mt19937_64 draw(50);
+        auto const number = [&] { return static_cast<double>(draw() >> 11) * 0x1p-52 - 1; };
+        auto cases = oracle::make_cases(20261201, 2000, mechanism);
+        int compared = 0;
+        for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+            auto& c = cases[i];
+            Inputs& in = c.inputs;
+            c.parts.offset_slider = true;
+            double const size = 0.4 * in.slider_length;
+            if (i % 4 != 0) in.mass_center_x = size * number(), in.mass_center_y = size * number(), in.mass_center_z = size * number();
+            if (i % 4 != 1 && mechanism != Mechanism::free_slider) in.pin_x = size * number(), in.pin_y = size * number(), in.pin_z = size * number();
+            if (i % 3 == 0) loads.put(in, c.parts, i, in.slider_mass * in.gravity);
+            if (i % 3 == 1) elements.put(in, c.parts, i, oracle::evaluate(in, c.parts, c.t, c.state).x);
+            if (i % 5 == 0) put_face_clearances(c, number());
+            if (c.parts.drive.turns_freely()) c.parts.drive.table = &falls.table(), c.parts.drive.over = LoadArgument::crank_speed;
+            compared += compare_probe(best_isa(), c, oracle::name_of(mechanism) + " case " + std::to_string(i));
+        }
+        EXPECT_GT(compared, 1800);
     }
 }
 

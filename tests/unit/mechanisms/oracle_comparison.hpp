@@ -75,7 +75,9 @@ inline void compare(std::string const& what, oracle::Case const& c, oracle::Resu
     }
     compare.group("attitude rates", r.derivative.data() + 4, d + 4, 3);
     double const inertia = std::min({c.inputs.slider_inertia_x, c.inputs.slider_inertia_y, c.inputs.slider_inertia_z});
-    compare.group("angular accelerations", r.derivative.data() + 7, d + 7, 3, load * c.inputs.slider_length / inertia);
+    // In flight the moments of an offset mass about its pin cancel but for their rounding.
+    double const cancelled = c.parts.offset_slider ? 1e-7 * c.inputs.slider_mass * c.inputs.gravity : 0;
+    compare.group("angular accelerations", r.derivative.data() + 7, d + 7, 3, (load + cancelled) * c.inputs.slider_length / inertia);
     compare.group("penetrations", joined(r.pen_y, r.pen_z), depths, 16);
     compare.group("forces", joined(r.fn_y, r.fn_z), forces, 16);
     double const reference_powers[] = {r.power_crank, r.power_friction, r.power_damping, r.power_load, r.power_ground, r.loss_springs};
