@@ -38,7 +38,7 @@ Kinematics kinematics_of(Inputs const& in, CrankMotion const& crank, State const
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts);
 
 struct Motion {
-    Vector3 slider_acceleration, pin_force;
+    Vector3 slider_acceleration, pin_force, rod_force;
 };
 
 /// Newton and Euler for rod and slider as free bodies joined at B.  Unknown: a_B, the force on the rod at A and at B.

@@ -97,6 +97,7 @@ void report_crank(Inputs const& in, Kinematics const& k, Motion const& motion, V
     Vector3 const span = k.slider.centre - k.pin, spread = k.slider.velocity - k.pin_velocity;
     result.rod_angular_velocity = array_of(span.cross(spread) / span.squaredNorm());
     result.pin_force = array_of(motion.pin_force);
+    result.rod_force = array_of(motion.rod_force);
     Real const rod_length = in.rod_length;
     result.ideal_x = static_cast<double>(k.pin.x() + std::sqrt(rod_length * rod_length - k.pin.y() * k.pin.y()));
 }
@@ -116,6 +117,7 @@ void report_joint(JointLoads const& joint, Result& result) {
         result.slip_y[i] = static_cast<double>(y.slip.norm()), result.slip_z[i] = static_cast<double>(z.slip.norm());
     }
     result.contact_potential = static_cast<double>(joint.potential);
+    result.contact_force = array_of(joint.force);
     result.normal_force = array_of(joint.normal);
     result.normal_torque = array_of(joint.normal_torque);
 }
