@@ -162,6 +162,7 @@ struct ProbeResult {
     double energy, contact_potential;  // [J]
     double crank_torque;               // [N m], without the crank's own weight
     double signals[most_signals];      // of the mechanism's own, as many as it has
+    double forces[series_count - first_force_series];  // as series have them, of a mechanism that tells them
     Status status;                     // finished, or why the state cannot be evaluated
 };
 

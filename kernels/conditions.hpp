@@ -19,6 +19,7 @@ template <class Laws> struct Conditions {
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
     bool by_clocks = false;      // and go by the clocks of impacts
     bool powers_alone = false;    // reports tell the powers of the energy audit, and nothing else
+    bool tells_forces = false;    // reports that tell more have the forces of faces and pins, too
     LoadList loads;
     DrivePlan drive;
 

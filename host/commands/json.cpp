@@ -273,6 +273,7 @@ std::string probe_json(Scene const& scene, StateTable const& table, std::vector<
         StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
         for (int i = 0; i < has.states; ++i) one["state"][state_info(has, i).name] = number(state[static_cast<std::size_t>(i)]);
         for (auto const& [name, value] : result_columns(table, results[row])) one["values"][name] = number(value);
+        for (auto const& [name, value] : force_columns(has, results[row])) one["forces"][name] = number(value);
         rows.push_back(std::move(one));
     }
     return text_of(json);

@@ -55,6 +55,25 @@ void print_contacts(MechanismInfo const& mechanism, ProbeResult const& result) {
     print_out("\n");
 }
 
+/// Of the way's faces, then of the vectors in sum and at the pins.
+void print_forces(MechanismInfo const& mechanism, ProbeResult const& result) {
+    auto const value = [&](Series first, std::size_t i) { return result.forces[static_cast<std::size_t>(first) - first_force_series + i]; };
+    TextRows rows{{"face", "normal force [N]", "acts along [m]", "across [m]", "p v [W m-2]"}};
+    for (std::size_t i = 0; i < std::size(face_names); ++i) {
+        rows.push_back({face_names[i]});
+        for (Series const of : {Series::face_force_y_plus, Series::face_along_y_plus, Series::face_across_y_plus, Series::face_pv_y_plus})
+            rows.back().push_back(cell(value(of, i), 6));
+    }
+    print_table([&](int) { return rows; }, 6, 1, 8);
+    print_out("\n");
+    constexpr std::pair<Series, char const*> vectors[] = {{Series::friction_force_x, "friction"}, {Series::contact_force_x, "way's force"},
+                                                          {Series::rod_force_x, "rod's force"}, {Series::crank_pin_force_x, "pin's force"}};
+    for (auto const& [first, label] : vectors) {
+        if (!selects(mechanism.series, first)) continue;
+        print_field(label, fmt::format("{:.10g}, {:.10g}, {:.10g} N", value(first, 0), value(first, 1), value(first, 2)));
+    }
+}
+
 void print_listing(Scene const& scene, StateTable const& table, ProbeResult const& result, Isa isa) {
     print_field("scene", fmt::format("{} at t = 0, computed with {}", scene.path, name_of(isa)));
     print_field("status", name_of(result.status));
@@ -68,6 +87,7 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_out("\n");
     print_table([&](int) { return rows; }, 3, 2, 8);
     print_contacts(has, result);
+    if (selects(has.series, Series::face_force_y_plus)) print_forces(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
     print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping{}", result.power_crank, result.power_friction,

@@ -188,6 +188,7 @@ std::vector<std::string> labels_of(std::string_view dimension) {
     if (dimension == "axis") return {"roll", "yaw", "pitch"};
     if (dimension == "direction") return {"x", "y", "z"};
     if (dimension == "channel") return {"top", "front"};
+    if (dimension == "face") return {std::begin(face_names), std::end(face_names)};
     return {};
 }
 

@@ -90,6 +90,8 @@ std::vector<double> uniform_times(double end_time, std::size_t count) {
     return times;
 }
 
+Problem const untold_by_rigid_contacts{"rigid contacts tell their normal forces in sum alone", "remove it, or use another contact.law"};
+
 void read_series(Node const& node, std::size_t place, Scene& scene) {
     if (scene.sample_times.empty()) {
         refuse(node, {"it is a time series and the study stores none",
@@ -97,6 +99,7 @@ void read_series(Node const& node, std::size_t place, Scene& scene) {
     }
     if (scene.integrator.method == Method::moreau_jean && selects(series_without_time_stepping, static_cast<Series>(place)))
         refuse(node, {"moreau_jean knows impulses of whole steps, and no forces of an instant", "remove it, or use method = \"auto\""});
+    if (scene.parts.rigid && selects(force_series, static_cast<Series>(place))) refuse(node, untold_by_rigid_contacts);
     scene.series |= Selection{1} << place;
 }
 
@@ -132,6 +135,7 @@ void check_size(Reading const& reading) {
 }  // namespace
 
 std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
+    if (scene.parts.rigid && selects(selections::force_quantities, quantity)) return untold_by_rigid_contacts;
     if (scene.parts.rigid && selects(without_rigid_contact, quantity))
         return Problem{"rigid contacts have neither peaks nor a potential", "remove it, or use another contact.law"};
     if (!scene.parts.rigid && selects(of_rigid_contact, quantity))

@@ -51,7 +51,7 @@ struct ResultColumns {
     std::size_t size(ResultColumn const& column) const;   // of all its values
     std::size_t width(ResultColumn const& column) const;  // of those along all dimensions but the first
     bool has_dimension(std::string const& name) const { return std::ranges::count(dimensions, name, &DataFile::Dimension::name) > 0; }
-    /// A dimension of the quantity table (apex, mode_class, axis, direction, channel) with its labels in the column `<name>_name`.
+    /// A dimension of the quantity table (apex, mode_class, axis, direction, channel, face) with its labels in the column `<name>_name`.
     void add_labels_of(std::string const& dimension);
 };
 

@@ -39,6 +39,8 @@ std::optional<CardLack> lack_of_cards(Scene const& scene) {
     if (MechanismInfo const& mechanism = info(parts.mechanism); !mechanism.on_cards)
         return CardLack{fmt::format("mechanism.kind is \"{}\"", mechanism.name), "the kernels for cards are of slider_crank alone"};
     if (parts.rigid) return law("the kernels for cards have no rigid contacts");
+    if ((scene.quantities & selections::force_quantities) != 0 || (scene.series & force_series) != 0)
+        return CardLack{"study.quantities asks for forces of faces or pins", "the kernels for cards do not tell them"};
     if (parts.loads.count > 0) return CardLack{fmt::format("{} is given", parts.loads.loads[0].name), "the kernels for cards have no loads"};
     if (module_of(parts.law) != nullptr) return law("the kernels for cards have no laws of modules");
     return {};

@@ -74,6 +74,14 @@ std::vector<std::pair<std::string, double>> result_columns(StateTable const& tab
     return columns;
 }
 
+std::vector<std::pair<std::string, double>> force_columns(MechanismInfo const& mechanism, ProbeResult const& result) {
+    std::vector<std::pair<std::string, double>> columns;
+    for (int i = first_force_series; i < series_count; ++i) {
+        if (selects(mechanism.series, static_cast<Series>(i))) columns.emplace_back(series_table[i].name, result.forces[i - first_force_series]);
+    }
+    return columns;
+}
+
 void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<ProbeResult> const& results) {
     std::string line;
     for (std::string const& name : table.parameter_names) line += name + ',';

@@ -24,6 +24,8 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa);
 /// some), penetrations, normal forces, mode triple, energies, the crank torque of a mechanism that has a crank, its own signals.  Of the planar
 /// mechanism penetrations and forces are those of its corners, pen_C1 … fn_C4.
 std::vector<std::pair<std::string, double>> result_columns(StateTable const& table, ProbeResult const& result);
+/// The forces of faces and pins under the names of their series, of a mechanism that tells them.
+std::vector<std::pair<std::string, double>> force_columns(MechanismInfo const& mechanism, ProbeResult const& result);
 
 /// The table's parameters, t, the states, the result columns and the status; numbers with 17 digits.
 void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<ProbeResult> const& results);

@@ -41,6 +41,7 @@ public:
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
         pack_.model.hold_contacts(pack_.needs.watching);
+        pack_.model.tell_forces(pack_.needs.forces);
         pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
         pack_.pair = &pair_of(block.settings, pack_.needs.watching);
@@ -137,7 +138,8 @@ private:
             if (pack_.needs.cuts()) move(s.contacts, r.contacts);
         }
         if (pack_.needs.quantities) move(s.observation, r.observation);
-        pack_.with_accelerations([&](auto& a) { move(a, r.accelerations); });
+        pack_.with_record(s.accelerations, pack_.needs.accelerations, [&](auto& a) { move(a, r.accelerations); });
+        pack_.with_record(s.forces, pack_.needs.forces, [&](auto& a) { move(a, r.forces); });
         if constexpr (Model::has_shadows) {
             for (int i = 0; i < block_.shadows.count; ++i) move(s.shadows[i], r.shadows[i]);
         }
@@ -205,7 +207,7 @@ private:
         pack_.count_evaluations(pack_.busy, 1);
         auto const whole = is_finite(c.y, rates);
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, report, c.y, pack_.needs.switches);
-        pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, report); });
+        pack_.with_records([&](auto& record, auto...) { record.start(pack_.busy, report); });
         pack_.begin_next(pack_.busy, rates, report);
         Neighbours<Model, Real> neighbours(block_.shadows);
         // By whatever stepper they go on.

@@ -5,7 +5,7 @@
 #include "kernels/block.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/lanes/model.hpp"
-#include "kernels/observers/acceleration_record.hpp"
+#include "kernels/observers/side_record.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -25,8 +25,10 @@ template <class Real> struct ResetHistory {
     Real in_row = Real(0.0);  // how many followed one another at once
 };
 
-template <class Model, class Real> struct AccelerationsOf { using Type = NoAccelerations; };
+template <class Model, class Real> struct AccelerationsOf { using Type = NoRecord<Keeper::accelerations>; };
 template <HasAccelerations Model, class Real> struct AccelerationsOf<Model, Real> { using Type = typename Model::template Accelerations<Real>; };
+template <class Model, class Real> struct ForcesOf { using Type = NoRecord<Keeper::forces>; };
+template <HasForces Model, class Real> struct ForcesOf<Model, Real> { using Type = typename Model::template Forces<Real>; };
 
 /// What a member has on account of its shadows.
 template <class Real> struct ShadowCourse {
@@ -89,8 +91,9 @@ template <class Model, class Real> struct MemberState {
         Real integrand[room(Observer::integrals)];  // at the start of the next step
     };
 
-    /// Present where accelerations are asked for.
+    /// Present where accelerations are asked for, and forces.
     using Accelerations = typename AccelerationsOf<Model, Real>::Type;
+    using Forces = typename ForcesOf<Model, Real>::Type;
 
     /// What of its course a copy of the member has for itself.  Rigid contacts are those of the member.
     struct Shadow {
@@ -105,6 +108,7 @@ template <class Model, class Real> struct MemberState {
     [[no_unique_address]] Contacts contacts;
     Observation observation;
     [[no_unique_address]] Accelerations accelerations;
+    [[no_unique_address]] Forces forces;
     [[no_unique_address]] PartIf<Model::has_shadows, Shadow[most_shadows]> shadows;
 };
 

@@ -16,6 +16,8 @@ struct ModelDefaults {
     SLIDEWAY_HD static void set_tolerance(double /*rtol*/) {}
     /// Reports, from here on, are of stages inside a step, which tell what is integrated and nothing else; and of that, perhaps, the audit's powers alone.
     SLIDEWAY_HD static void tell_stages(bool /*inside*/, bool /*powers_alone*/) {}
+    /// Whether reports, from here on, tell the forces of faces and pins.
+    SLIDEWAY_HD static void tell_forces(bool /*wanted*/) {}
     /// At which events of its contacts steps end, and whether its law switches.
     SLIDEWAY_HD static constexpr Watching watching(bool /*locate_modes*/, bool /*neighbours*/) { return Watching::nothing; }
     SLIDEWAY_HD static constexpr bool switches() { return false; }
@@ -34,8 +36,9 @@ struct ModelDefaults {
     template <class... Offset> SLIDEWAY_FN static void keep_offset(Offset const&...) {}
 };
 
-/// Whether a model's accelerations may be asked for: it names an `Accelerations<Real>`.
+/// Whether a model's accelerations may be asked for, and its forces: it names an `Accelerations<Real>`, a `Forces<Real>`.
 template <class Model> concept HasAccelerations = requires { typename Model::template Accelerations<double>; };
+template <class Model> concept HasForces = requires { typename Model::template Forces<double>; };
 /// Whether a model has events of its own, and brings their search.
 template <class Model> concept HasEvents = requires { requires Model::events > 0; };
 /// Whether impacts of a model have no duration: where a step ends its `settle` says what follows.

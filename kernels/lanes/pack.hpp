@@ -18,6 +18,8 @@ template <class Model, class Real> struct Pack {
     static constexpr int size = Model::size;
     using Report = typename Model::template Report<Real>;
     using Observer = typename Model::template Observer<Real>;
+    using Accelerations = typename AccelerationsOf<Model, Real>::Type;
+    using Forces = typename ForcesOf<Model, Real>::Type;
 
     explicit SLIDEWAY_HD Pack(Model const& of_block) : model(of_block) {
         for (auto& mean : integral) mean = Real(0.0);
@@ -46,9 +48,15 @@ template <class Model, class Real> struct Pack {
                              : model.template derivative<false>(t, at, p, memory, rates, &report);
     }
 
-    /// Has the function see the accelerations' record, where it is at work.
-    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) { with_accelerations_of(*this, function); }
-    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) const { with_accelerations_of(*this, function); }
+    /// Has the function see a record that a model may lack, where it is at work.
+    template <class Record, class Function> SLIDEWAY_HD static void with_record(Record& record, bool at_work, Function const& function) {
+        if (at_work) function(record);
+    }
+    template <Keeper keeper, class Function> SLIDEWAY_HD static void with_record(NoRecord<keeper> const&, bool, Function const&) {}
+    template <Keeper keeper, class Function> SLIDEWAY_HD static void with_record(NoRecord<keeper>&, bool, Function const&) {}
+    /// Has it see those that are at work, and where their integrals and peaks begin.
+    template <class Function> SLIDEWAY_HD void with_records(Function const& function) { with_records_of(*this, function); }
+    template <class Function> SLIDEWAY_HD void with_records(Function const& function) const { with_records_of(*this, function); }
 
     /// Says whether reports, from here on, are of stages inside a step: they tell of a state what is integrated and nothing else, which may be what
     /// the energy audit integrates.
@@ -56,31 +64,33 @@ template <class Model, class Real> struct Pack {
         model.tell_stages(inside, inside && needs.powers_alone);
     }
 
-    /// How many integrals a step may have: the observer's, then the accelerations'.
-    static constexpr int integrals = Observer::integrals + AccelerationsOf<Model, Real>::Type::integrals;
+    /// How many integrals a step may have: the observer's, then those of the records.
+    static constexpr int integrals = Observer::integrals + Accelerations::integrals + Forces::integrals;
 
     /// Those of them that the block asks for: the first ones.
-    SLIDEWAY_HD int integrals_in_use() const { return needs.accelerations ? integrals : observed(); }
+    SLIDEWAY_HD int integrals_in_use() const {
+        return observed() + (needs.accelerations ? Accelerations::integrals : 0) + (needs.forces ? Forces::integrals : 0);
+    }
 
     /// The integrands where a step starts, and at a report.
     SLIDEWAY_HD void integrands_at_start(Real* values) const {
         each_observed([&](int i) { values[i] = state.observation.integrand[i]; });
-        with_accelerations([&](auto const& record) { record.integrands_at_start(values + Observer::integrals); });
+        with_records([&](auto const& record, int place, auto...) { record.integrands_at_start(values + place); });
     }
     SLIDEWAY_HD void integrands(Report const& report, Real* values) const {
         observe(report, values);
-        with_accelerations([&](auto const& record) { record.integrands(report, values + Observer::integrals); });
+        with_records([&](auto const& record, int place, auto...) { record.integrands(report, values + place); });
     }
     /// Sets the means of the integrands over a step, in the lanes of the mask.
     SLIDEWAY_HD void set_means(Mask<Real> in, Real const* means) {
         each_observed([&](int i) { integral[i] = select(in, means[i], integral[i]); });
-        with_accelerations([&](auto& record) { record.set_means(in, means + Observer::integrals); });
+        with_records([&](auto& record, int place, auto...) { record.set_means(in, means + place); });
     }
 
     /// Begins the integrals over a step with the stage at its start.
     SLIDEWAY_HD void begin_integrals(StageWeights const& w) {
         each_observed([&](int i) { integral[i] = Real(w.value) * state.observation.integrand[i]; });
-        with_accelerations([&](auto& record) { record.begin_step(w.value); });
+        with_records([&](auto& record, auto...) { record.begin_step(w.value); });
         each_audited([&](int i, int place) {
             Real const value = state.observation.integrand[place];
             audit_error[i] = Real(w.error) * value;
@@ -94,7 +104,7 @@ template <class Model, class Real> struct Pack {
         Real values[room(Observer::integrals)];
         observe(report, values);
         each_observed([&](int i) { integral[i] = fma(Real(w.value), values[i], integral[i]); });
-        with_accelerations([&](auto& record) { record.add_stage(w.value, report); });
+        with_records([&](auto& record, auto...) { record.add_stage(w.value, report); });
         each_audited([&](int i, int place) {
             audit_error[i] = fma(Real(w.error), values[place], audit_error[i]);
             if (w.coarse_error != 0) coarse_audit_error[i] = fma(Real(w.coarse_error), values[place], coarse_audit_error[i]);
@@ -118,7 +128,7 @@ template <class Model, class Real> struct Pack {
         each_observed([&](int i) {
             state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
         });
-        with_accelerations([&](auto& record) { record.begin_next(in, report); });
+        with_records([&](auto& record, auto...) { record.begin_next(in, report); });
     }
 
     /// Evaluates derivative and report again where members are, in lanes whose impact speeds or contacts have changed.
@@ -130,19 +140,18 @@ template <class Model, class Real> struct Pack {
         return faults;
     }
 
-    /// Values of which the largest is kept: the observer's, then the accelerations'.
-    struct Peaks {
-        static constexpr int count = Observer::peaks + AccelerationsOf<Model, Real>::Type::peaks;
-        Real of[count];
-    };
+    /// Values of which the largest is kept: the observer's, then those of the records.
+    struct Peaks { Real of[Observer::peaks + Accelerations::peaks + Forces::peaks]; };
+    SLIDEWAY_HD int peaks_in_use() const {
+        return Observer::peaks + (needs.accelerations ? Accelerations::peaks : 0) + (needs.forces ? Forces::peaks : 0);
+    }
     SLIDEWAY_HD void tell_peaks(Report const& report, Real const* at, Peaks& values) const {
-        for (auto& value : values.of) value = Real(0.0);
         Observer::tell_peaks(report, at, values.of);
-        with_accelerations([&](auto const& record) { record.tell_peaks(report, values.of + Observer::peaks); });
+        with_records([&](auto const& record, int, int place) { record.tell_peaks(report, values.of + place); });
     }
     SLIDEWAY_HD void raise_peaks(Mask<Real> in, Peaks const& values) {
         state.observation.observer.raise_peaks(in, values.of);
-        with_accelerations([&](auto& record) { record.raise_peaks(in, values.of + Observer::peaks); });
+        with_records([&](auto& record, int, int place) { record.raise_peaks(in, values.of + place); });
     }
 
     /// Counts what an attempt costs in the lanes of the mask.
@@ -158,10 +167,13 @@ template <class Model, class Real> struct Pack {
     }
 
 private:
-    template <class Self, class Function> SLIDEWAY_HD static void with_accelerations_of(Self& self, Function const& function) {
-        if constexpr (HasAccelerations<Model>) {
-            if (self.needs.accelerations) function(self.state.accelerations);
-        }
+    template <class Self, class Function> SLIDEWAY_HD static void with_records_of(Self& self, Function const& function) {
+        auto const& needs = self.needs;
+        with_record(self.state.accelerations, needs.accelerations, [&](auto& record) { function(record, Observer::integrals, Observer::peaks); });
+        with_record(self.state.forces, needs.forces, [&](auto& record) {
+            function(record, Observer::integrals + (needs.accelerations ? Accelerations::integrals : 0),
+                     Observer::peaks + (needs.accelerations ? Accelerations::peaks : 0));
+        });
     }
     /// How many of the observer's integrals are asked for, and their integrands at a report.
     SLIDEWAY_HD int observed() const {

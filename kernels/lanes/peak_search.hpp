@@ -38,7 +38,7 @@ private:
         pack.count_evaluations(in, places - 1);
         pack.tell_peaks(to.report, to.end, at[places - 1]);
         Peaks found;
-        for (int k = 0; k < Peaks::count; ++k) {
+        for (int k = 0; k < pack.peaks_in_use(); ++k) {
             found.of[k] = at[0].of[k];
             for (int i = 1; i + 1 < places; ++i) found.of[k] = max(found.of[k], vertex(at[i - 1].of[k], at[i].of[k], at[i + 1].of[k]));
         }

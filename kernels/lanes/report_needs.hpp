@@ -12,6 +12,7 @@ struct ReportNeeds {
     bool quantities = false;     // the observer is at work
     bool stages = false;         // at every stage, for integrals
     bool accelerations = false;  // their record is at work
+    bool forces = false;         // that of forces is
     bool peaks = false;          // inside of steps too
     bool powers_alone = false;   // which are the energy audit's alone
     bool audit = false;          // the audit's integrals meet the tolerance too
@@ -28,14 +29,16 @@ struct ReportNeeds {
     SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, IntegratorSettings const& settings) {
         using Observer = typename Model::template Observer<Real>;
         using Accelerations = typename AccelerationsOf<Model, Real>::Type;
+        using Forces = typename ForcesOf<Model, Real>::Type;
         ReportNeeds needs;
         needs.quantities = quantities != 0;
         needs.accelerations = (quantities & Accelerations::quantities) != 0;
-        needs.stages = Observer::needs_stages(quantities) || Accelerations::needs_stages(quantities);
-        needs.peaks = Observer::needs_peaks(quantities) || Accelerations::needs_peaks(quantities);
+        needs.forces = (quantities & Forces::quantities) != 0;
+        needs.stages = Observer::needs_stages(quantities) || Accelerations::needs_stages(quantities) || Forces::needs_stages(quantities);
+        needs.peaks = Observer::needs_peaks(quantities) || Accelerations::needs_peaks(quantities) || Forces::needs_peaks(quantities);
         needs.audit = Observer::audits(quantities);
         needs.loads = model.has_loads();
-        needs.powers_alone = needs.stages && !needs.accelerations && !Observer::integrates_more(quantities);
+        needs.powers_alone = needs.stages && !needs.accelerations && !needs.forces && !Observer::integrates_more(quantities);
         needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
         if (HasClocks<Model> && settings.method == Method::verner65) needs.watching = Watching::clocks;
         needs.switches = model.switches();

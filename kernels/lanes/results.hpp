@@ -121,7 +121,9 @@ public:
             typename Model::template Report<Real> report;
             if (sampler_.beyond_state()) {
                 Real rates[Model::size];
+                pack.model.tell_forces(sampler_.has_forces());
                 pack.evaluate(at, state, from.memory, rates, true, report);
+                pack.model.tell_forces(pack.needs.forces);
                 pack.count_evaluations(due, 1);
             }
             for (int i = 0; i < lanes<Real>; ++i) {
@@ -176,8 +178,8 @@ public:
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;
                 pack.state.observation.observer.finish(i, time, block_.quantities,
                                                        block_.quantity_values + member * columns);
-                pack.with_accelerations([&](auto const& a) {
-                    a.finish(i, time, block_.quantities, block_.quantity_values + member * columns);
+                pack.with_records([&](auto const& record, auto...) {
+                    record.finish(i, time, block_.quantities, block_.quantity_values + member * columns);
                 });
             }
             if (block_.samples > 0) sampler_.fill_missing(member, number(c.sample, i));

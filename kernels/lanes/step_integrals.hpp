@@ -12,7 +12,7 @@ template <class Pair, class Model, class Real> class StepIntegrals {
 public:
     SLIDEWAY_HD void begin(Pack<Model, Real> const& pack, Real pace) {
         pack.integrands_at_start(numbers_.k[0]);
-        for (int i = 0; i < pack.integrals_in_use(); ++i) {
+        for (int i = 0, count = pack.integrals_in_use(); i < count; ++i) {
             numbers_.start[i] = Real(0.0);
             numbers_.k[0][i] = numbers_.k[0][i] * pace;
         }
@@ -22,7 +22,7 @@ public:
     /// With the report of a stage.
     template <int s> SLIDEWAY_HD void stage(Pack<Model, Real> const& pack, typename Pack<Model, Real>::Report const& report, Real pace) {
         pack.integrands(report, numbers_.k[s]);
-        for (int i = 0; i < pack.integrals_in_use(); ++i) numbers_.k[s][i] = numbers_.k[s][i] * pace;
+        for (int i = 0, count = pack.integrals_in_use(); i < count; ++i) numbers_.k[s][i] = numbers_.k[s][i] * pace;
     }
 
     /// With the report in the middle of the step.
@@ -30,14 +30,14 @@ public:
                             Real whole) {
         Real values[parts];
         pack.integrands(report, values);
-        for (int i = 0; i < pack.integrals_in_use(); ++i) numbers_.set_middle(lanes, i, whole, values[i] * pace);
+        for (int i = 0, count = pack.integrals_in_use(); i < count; ++i) numbers_.set_middle(lanes, i, whole, values[i] * pace);
     }
 
     /// Means and errors over the whole step.  @param step [s]  @param whole the step by its clock
     SLIDEWAY_HD void finish(Pack<Model, Real>& pack, Real step, Real whole) {
         Real const per_time = Real(1.0) / step, own_per_time = whole * per_time;
         Real means[parts];
-        for (int i = 0; i < pack.integrals_in_use(); ++i) {
+        for (int i = 0, count = pack.integrals_in_use(); i < count; ++i) {
             // Of the last stage the weights are those of the step.
             numbers_.end[i] = Pair::template stage_value<Pair::stages - 1>(numbers_.start, numbers_.k, whole, i);
             means[i] = numbers_.end[i] * per_time;
@@ -49,7 +49,7 @@ public:
     /// Means over what is left of a step in lanes where it ends early.  @param share of the whole step by its clock
     SLIDEWAY_HD void end_early(Pack<Model, Real>& pack, Mask<Real> early, Real step, Real whole, Real share) const {
         Real means[parts];
-        for (int i = 0; i < pack.integrals_in_use(); ++i) means[i] = numbers_.at(i, whole, share) / step;
+        for (int i = 0, count = pack.integrals_in_use(); i < count; ++i) means[i] = numbers_.at(i, whole, share) / step;
         pack.set_means(early, means);
     }
 

@@ -201,7 +201,8 @@ private:
             if (pack.needs.peaks && step_.adapts()) PeakSearch<Stepper, Model, Real>::run(pack, step_.stepper, attempt, accepted);
         }
         pack.state.observation.observer.accept(accepted, attempt.step, pack.integral, attempt.report, attempt.end, pack.needs.switches);
-        pack.with_accelerations([&](auto& a) { a.accept(accepted, attempt.step, attempt.report); });
+        pack.with_records([&](auto& record, auto...) { record.accept(accepted, attempt.step, attempt.report); });
+        if (!Stepper::by_clock) pack.with_record(pack.state.forces, pack.needs.forces, [&](auto& f) { f.see_faces(accepted, attempt.report); });
     }
 
     /// Members that have landed at a stop: their section, and how their neighbours have departed.

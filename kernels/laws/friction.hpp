@@ -42,11 +42,8 @@ template <class Real> struct Slip {
 
 /// Stick–slip friction.  Source: Qian et al. 2020 (5)–(6), whose garbled cases continuity at Vs and Vd settles.
 struct StickSlipFriction {
-    /// −μ(V) F v_t/V at the four apices of a face, v = u' + ω × ρ and v_t = v − (v·n)n, with all components.
-    /// @param normal F of the four apices [N].
-    template <class Real>
-    SLIDEWAY_NOINLINE static FrictionLoad<Real> load(SlidingFace<Real> const& face, Quad<Real> const& normal,
-                                                     FrictionParameters<Real> const& friction) {
+    /// v_t of the four apices of a face.
+    template <class Real> SLIDEWAY_FN static Quad<Vec3<Real>> velocities(SlidingFace<Real> const& face) {
         Vec3<Real> w = face.spin;
         Vec3<Real> n = face.normal;
         Real const main = face.centre_main, across = face.centre_across;
@@ -59,7 +56,17 @@ struct StickSlipFriction {
         auto of_length = tangential({zero, w.z * length, negated(w.y) * length}, n);
         auto of_width = tangential({w.y * width, negated(w.x) * width, zero}, n);
         auto front = of_centre + of_length, rear = of_centre - of_length;
-        auto a = front + of_width, b = front - of_width, c = rear - of_width, d = rear + of_width;
+        return {front + of_width, front - of_width, rear - of_width, rear + of_width};
+    }
+
+    /// −μ(V) F v_t/V at the four apices of a face, v = u' + ω × ρ and v_t = v − (v·n)n, with all components.
+    /// @param normal F of the four apices [N].
+    template <class Real>
+    SLIDEWAY_NOINLINE static FrictionLoad<Real> load(SlidingFace<Real> const& face, Quad<Real> const& normal,
+                                                     FrictionParameters<Real> const& friction) {
+        Real const main = face.centre_main, across = face.centre_across;
+        Real const length = face.half_length, width = face.half_across;
+        auto [a, b, c, d] = velocities(face);
         Quad<Real> square{dot(a, a), dot(b, b), dot(c, c), dot(d, d)};
         Quad<Real> speed{sqrt(square.a), sqrt(square.b), sqrt(square.c), sqrt(square.d)};
         auto force = coefficients(speed, friction);
@@ -72,8 +79,7 @@ struct StickSlipFriction {
         b = (force.b * (speed.b * inverse.b)) * b;
         c = (force.c * (speed.c * inverse.c)) * c;
         d = (force.d * (speed.d * inverse.d)) * d;
-        front = a + b;
-        rear = c + d;
+        auto front = a + b, rear = c + d;
         auto drag = front + rear;  // against the force
         Real const along_y = front.y - rear.y, along_z = front.z - rear.z;
         Real const across_x = (a.x + d.x) - (b.x + c.x), across_y = (a.y + d.y) - (b.y + c.y);

@@ -58,11 +58,15 @@ constexpr Selection of(std::initializer_list<Series> list) {
 inline constexpr Selection crank_quantities =
     of({Quantity::peak_crank_torque, Quantity::rms_crank_torque, Quantity::peak_rod_angular_velocity,
         Quantity::rms_rod_angular_velocity});
+inline constexpr Selection force_quantities = quantities_where([](QuantityInfo const& info) { return info.keeper == Keeper::forces; });
+inline constexpr Selection pin_quantities = of({Quantity::peak_rod_force, Quantity::peak_crank_pin_force});
 inline constexpr Selection apex_quantities = of({Quantity::peak_apex_force, Quantity::mean_apex_force});
 inline constexpr Selection sensor_quantities = of({Quantity::peak_channel_acceleration, Quantity::acceleration_area});
 inline constexpr Selection all_quantities = (Selection{1} << quantity_count) - 1;
 
-inline constexpr Selection crank_series = of({Series::crank_torque, Series::rod_angular_velocity});
+inline constexpr Selection pin_series = of({Series::rod_force_x, Series::rod_force_y, Series::rod_force_z, Series::crank_pin_force_x,
+                                            Series::crank_pin_force_y, Series::crank_pin_force_z});
+inline constexpr Selection crank_series = of({Series::crank_torque, Series::rod_angular_velocity}) | pin_series;
 inline constexpr Selection planar_only = of({Series::crank_angle, Series::crank_angular_velocity, Series::rod_angle});
 inline constexpr Selection spatial_series = ((Selection{1} << series_count) - 1) & ~planar_only;
 inline constexpr Selection ten_states = (Selection{1} << 10) - 1, twelve_states = (Selection{1} << 12) - 1;
@@ -78,7 +82,7 @@ constexpr MechanismInfo spatial_slider_info() {
                       Series::wy, Series::wz},
             .series = selections::spatial_series & ~selections::crank_series,
             .always = selections::ten_states,
-            .quantities = selections::all_quantities & ~selections::crank_quantities,
+            .quantities = selections::all_quantities & ~selections::crank_quantities & ~selections::pin_quantities,
             .keys = groups_of(KeyGroup::slider, KeyGroup::smooth_friction, KeyGroup::spatial),
             .drive = DriveKind::none,
             .spatial = true};

@@ -64,6 +64,15 @@ template <class Real> struct MechanismReport {
             case Series::crank_angle:
             case Series::crank_angular_velocity:
             case Series::rod_angle:
+            // JointForces has these.
+            case Series::face_force_y_plus: case Series::face_force_y_minus: case Series::face_force_z_plus: case Series::face_force_z_minus:
+            case Series::face_along_y_plus: case Series::face_along_y_minus: case Series::face_along_z_plus: case Series::face_along_z_minus:
+            case Series::face_across_y_plus: case Series::face_across_y_minus: case Series::face_across_z_plus: case Series::face_across_z_minus:
+            case Series::face_pv_y_plus: case Series::face_pv_y_minus: case Series::face_pv_z_plus: case Series::face_pv_z_minus:
+            case Series::friction_force_x: case Series::friction_force_y: case Series::friction_force_z:
+            case Series::contact_force_x: case Series::contact_force_y: case Series::contact_force_z:
+            case Series::rod_force_x: case Series::rod_force_y: case Series::rod_force_z:
+            case Series::crank_pin_force_x: case Series::crank_pin_force_y: case Series::crank_pin_force_z:
             case Series::count:
                 break;
         }

@@ -41,6 +41,8 @@ template <class Real> SLIDEWAY_HD void put_contact(PlanarContact<Real> const& c,
 
 /// Evaluates a table of states, a pack at a time; the last pack is filled up with the last row.
 template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& table, Model const& model = {}) {
+    Model telling = model;
+    telling.tell_forces(true);
     constexpr int width = lanes<Real>;
     constexpr int size = Model::size;
     SLIDEWAY_EXPECT(table.rows == 0 || (table.inputs != nullptr && table.times != nullptr && table.results != nullptr));
@@ -62,7 +64,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             Model::initial_state(table.inputs[row], start);
             for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);
         }
-        auto const faults = model.template derivative<true>(t, state, p, memory, rates, &report);
+        auto const faults = telling.template derivative<true>(t, state, p, memory, rates, &report);
         for (int i = 0; i < width && first + i < table.rows; ++i) {
             auto& result = table.results[first + i];
             bool finite = true;
@@ -84,6 +86,9 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             result.energy = lane(report.energy, i);
             result.contact_potential = lane(c.potential, i);
             result.crank_torque = lane(report.crank_torque, i);
+            if constexpr (requires { report.forces; }) {
+                for (int k = first_force_series; k < series_count; ++k) result.forces[k - first_force_series] = lane(report.forces.series_value(k), i);
+            }
             double* signal = result.signals;
             if constexpr (requires { report.signal; }) for (Real const& value : report.signal) *signal++ = lane(value, i);
             result.status = holds(faults.geometry, i)         ? Status::geometry

@@ -20,6 +20,7 @@ template <class Laws> struct ConditionsOfBlock : ModelDefaults {
         block.by_clocks = watching == Watching::clocks;
     }
     SLIDEWAY_HD void tell_stages(bool /*inside*/, bool powers_alone) { block.powers_alone = powers_alone; }
+    SLIDEWAY_HD void tell_forces(bool wanted) { block.tells_forces = wanted; }
     /// At which events of the contacts steps end.  @param neighbours members have some beside them
     SLIDEWAY_HD Watching watching(bool locate_modes, bool neighbours) const {
         if (block.remembers) return neighbours && block.switches ? Watching::touches_and_parts : Watching::touches;

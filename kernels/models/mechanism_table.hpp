@@ -3,7 +3,9 @@
 #include "kernels/joint/apex.hpp"
 #include "kernels/laws/one_law.hpp"
 #include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/told_forces.hpp"
 #include "kernels/models/mechanism_model.hpp"
+#include "kernels/observers/force_record.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -20,6 +22,7 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
     typename Base::template Parameters<double> (*parameters)(Inputs const&) = nullptr;
     Derivative* lean = nullptr;
     Derivative* full = nullptr;
+    void (*forces)(Real, Real const*, Real const*, Parameters const&, Block const&, SliderReport<Real> const&, JointForces<Real>&) = nullptr;
     Real (*gap)(Real, Real const*, Parameters const&, Block const&, Apex) = nullptr;
     // Of mechanisms with a linearisation and contact patterns.
     void (*linearise)(Real, Real const*, Parameters const&, Memory const&, Block const&, SliderLinearisation<Real>&) = nullptr;
@@ -39,6 +42,7 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
             functions.lean = &derivative_of<Mechanism, false, Real, Laws, Parameters, Memory, Report>;
             functions.full = &derivative_of<Mechanism, true, Real, Laws, Parameters, Memory, Report>;
         }
+        if constexpr (LanesOf<Base>::tells_forces) functions.forces = &slideway::tell_forces<Mechanism, Real, Laws, Parameters>;
         functions.gap = &Mechanism::template gap<Real, Laws>;
         if constexpr (LanesOf<Base>::has_linearisation) {
             functions.linearise = &Mechanism::template linearise<Real, Laws>;
@@ -50,13 +54,20 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
     }
 };
 
+/// The reports of lanes that tell forces, where their base has any.
+template <class Base, class Signals, bool tells_forces = LanesOf<Base>::tells_forces> struct ForceLanes : SignalLanes<Base, Signals> {
+    template <class Real> using Report = ForceReport<Real, typename SignalLanes<Base, Signals>::template Report<Real>>;
+    template <class Real> using Forces = ForceRecord<Real>;
+};
+template <class Base, class Signals> struct ForceLanes<Base, Signals, false> : SignalLanes<Base, Signals> {};
+
 /// A mechanism whose equations are looked up: the lanes are compiled once for all mechanisms of a base that have no signals of their own.
 template <class Real, class Base, class Signals = NoSignals>
-struct MechanismTable : Base, SignalLanes<Base, Signals>, ConditionsOfBlock<LawFunctions<Real>> {
+struct MechanismTable : Base, ForceLanes<Base, Signals>, ConditionsOfBlock<LawFunctions<Real>> {
     using Functions = MechanismFunctions<Real, Base, Signals>;
     template <class Number> using Parameters = typename Base::template Parameters<Number>;
     template <class Number> using Memory = typename LanesOf<Base>::template Memory<Number>;
-    template <class Number> using Report = typename SignalLanes<Base, Signals>::template Report<Number>;
+    template <class Number> using Report = typename ForceLanes<Base, Signals>::template Report<Number>;
 
     Functions functions;
 
@@ -67,7 +78,13 @@ struct MechanismTable : Base, SignalLanes<Base, Signals>, ConditionsOfBlock<LawF
     template <bool Full>
     Faults<Real> derivative(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
                             Real* rates, Report<Real>* report) const {
-        return (Full ? functions.full : functions.lean)(t, state, p, memory, this->block, rates, report);
+        if constexpr (!Full || !LanesOf<Base>::tells_forces) {
+            return (Full ? functions.full : functions.lean)(t, state, p, memory, this->block, rates, report);
+        } else {
+            auto const faults = functions.full(t, state, p, memory, this->block, rates, report);
+            if (this->block.tells_forces && !this->block.powers_alone) functions.forces(t, state, rates, p, this->block, *report, report->forces);
+            return faults;
+        }
     }
     template <class Linearisation>
     void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,

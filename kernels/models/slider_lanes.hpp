@@ -20,6 +20,7 @@ template <class Base> struct ContactLanes {
     static constexpr bool has_contacts = true;
     static constexpr bool has_shadows = false;
     static constexpr bool has_crossings = true;
+    static constexpr bool tells_forces = false;  // of faces and pins
     template <class Real> using Accelerations = AccelerationRecord<Real>;
 
     /// An impact speed as it may be remembered: a shadow's is carried on from the member's.
@@ -36,6 +37,7 @@ template <class Base> struct ContactLanes {
 template <class Base> struct SpatialLanes : ContactLanes<Base> {
     static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = true;
+    static constexpr bool tells_forces = true;
     template <class Real> using Observer = SliderObserver<Real>;
     template <class Real> using Memory = ContactMemory<Real>;
     template <class Real> using Watch = ContactWatch<Real>;

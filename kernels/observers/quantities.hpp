@@ -18,9 +18,9 @@ enum class Statistic {
     counted,           // by code of its own at the accepted steps
 };
 
-/// Who keeps a quantity: SliderObserver; AccelerationRecord, which members that ask for none of its quantities do not carry along; or
+/// Who keeps a quantity: SliderObserver; AccelerationRecord or ForceRecord, which members that ask for none of its quantities do not carry along; or
 /// SignalObserver, of a mechanism's own signals.
-enum class Keeper { mechanism, accelerations, signals };
+enum class Keeper { mechanism, accelerations, forces, signals };
 
 // row(name, statistic, keeper, unit, columns, dimension, long name): one value (or `columns` values along `dimension`) per member at the
 // end of its run.
@@ -52,7 +52,15 @@ enum class Keeper { mechanism, accelerations, signals };
     row(peak_acceleration, peak, accelerations, "m s-2", 3, "direction", "largest magnitude of the acceleration of the slider's centre") \
     row(rms_acceleration, root_mean_square, accelerations, "m s-2", 3, "direction", "root mean square of the acceleration of the slider's centre") \
     row(peak_channel_acceleration, peak, accelerations, "m s-2", 2, "channel", "largest magnitude of a sensor's acceleration") \
-    row(acceleration_area, integral, accelerations, "m s-1", 2, "channel", "integral over time of the magnitude of a sensor's acceleration")
+    row(acceleration_area, integral, accelerations, "m s-1", 2, "channel", "integral over time of the magnitude of a sensor's acceleration") \
+    row(peak_face_force, peak, forces, "N", 4, "face", "largest normal force at the way's face") \
+    row(peak_pressure, peak, forces, "Pa", 4, "face", "largest normal force at the way's face over the area of that") \
+    row(peak_pv, peak, forces, "W m-2", 4, "face", "largest product of pressure and sliding speed, its mean over the way's face") \
+    row(mean_pv, mean, forces, "W m-2", 4, "face", "time mean of the product of pressure and sliding speed, its mean over the way's face") \
+    row(face_onsets, counted, forces, "1", 4, "face", "times that contact with the way's face began") \
+    row(peak_friction_force, peak, forces, "N", 1, nullptr, "largest magnitude of the friction on the slider") \
+    row(peak_rod_force, peak, forces, "N", 1, nullptr, "largest magnitude of the rod's force on the slider") \
+    row(peak_crank_pin_force, peak, forces, "N", 1, nullptr, "largest magnitude of the crank pin's force on the rod")
 // clang-format on
 
 enum class Quantity : int {
@@ -68,7 +76,7 @@ struct QuantityInfo {
     Keeper keeper;
     char const* unit;
     int columns;
-    char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction or channel
+    char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction, channel or face
     char const* long_name;
 
     /// Whether it is the integral of a value over the stages of the steps, or made of one.
@@ -91,10 +99,17 @@ inline constexpr int quantity_count = static_cast<int>(Quantity::count);
 
 /// Mode classes of `mode_time`: the hardest contact of the configuration decides.
 inline constexpr char const* mode_class_names[] = {"free", "point", "line", "surface"};
+/// Faces of the way, in the order of the reports.
+inline constexpr char const* face_names[] = {"y_plus", "y_minus", "z_plus", "z_minus"};
 
 // Values at the sample times: row(name, unit, long name).  Which of them are a mechanism's state: mechanisms/mechanism_info.hpp; the others
 // are in its report (`series_value`).
 // clang-format off
+#define SLIDEWAY_SERIES_OF_FACES(row, name, unit, words) \
+    row(name##_y_plus, unit, words " at the way's face Y+") row(name##_y_minus, unit, words " at the way's face Y-") \
+    row(name##_z_plus, unit, words " at the way's face Z+") row(name##_z_minus, unit, words " at the way's face Z-")
+#define SLIDEWAY_SERIES_OF_AXES(row, name, words) \
+    row(name##_x, "N", words " X") row(name##_y, "N", words " Y") row(name##_z, "N", words " Z")
 #define SLIDEWAY_SERIES(row) \
     row(y, "m", "vertical position of the slider's centre") \
     row(z, "m", "lateral position of the slider's centre") \
@@ -121,7 +136,15 @@ inline constexpr char const* mode_class_names[] = {"free", "point", "line", "sur
     row(acceleration_front, "m s-2", "acceleration along the slider's Z axis of a sensor 10 mm before its front face") \
     row(crank_angle, "rad", "angle of the crank") \
     row(crank_angular_velocity, "rad s-1", "angular velocity of the crank") \
-    row(rod_angle, "rad", "angle of the rod")
+    row(rod_angle, "rad", "angle of the rod") \
+    SLIDEWAY_SERIES_OF_FACES(row, face_force, "N", "normal force") \
+    SLIDEWAY_SERIES_OF_FACES(row, face_along, "m", "where the normal force acts along the way, from the slider's centre, 0 without contact,") \
+    SLIDEWAY_SERIES_OF_FACES(row, face_across, "m", "where the normal force acts across the way, from its axis, 0 without contact,") \
+    SLIDEWAY_SERIES_OF_FACES(row, face_pv, "W m-2", "mean product of pressure and sliding speed") \
+    SLIDEWAY_SERIES_OF_AXES(row, friction_force, "friction on the slider along the way's") \
+    SLIDEWAY_SERIES_OF_AXES(row, contact_force, "force of the way on the slider, friction included, along") \
+    SLIDEWAY_SERIES_OF_AXES(row, rod_force, "force of the rod on the slider along") \
+    SLIDEWAY_SERIES_OF_AXES(row, crank_pin_force, "force of the crank pin on the rod along")
 // clang-format on
 
 enum class Series : int {
@@ -143,6 +166,8 @@ inline constexpr SeriesInfo series_table[] = {
 #undef SLIDEWAY_ROW
 };
 inline constexpr int series_count = static_cast<int>(Series::count);
+/// From here on series are of forces, which reports tell where they are asked for (JointForces).
+inline constexpr int first_force_series = static_cast<int>(Series::face_force_y_plus);
 
 /// A set of quantities or series: bit i for entry i of the table, then those of the mechanism's own signals.
 using Selection = std::uint64_t;
@@ -151,6 +176,7 @@ constexpr bool selects(Selection set, Quantity q) { return (set >> static_cast<i
 constexpr Selection selection_of(Quantity q) { return Selection{1} << static_cast<int>(q); }
 constexpr Selection selection_of(Series s) { return Selection{1} << static_cast<int>(s); }
 constexpr bool selects(Selection set, Series s) { return (set >> static_cast<int>(s)) & 1u; }
+inline constexpr Selection force_series = (Selection{1} << series_count) - (Selection{1} << first_force_series);
 
 /// The quantities whose row in the table is as the function asks.
 template <class Function> constexpr Selection quantities_where(Function const& is_so) {

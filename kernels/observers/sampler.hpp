@@ -31,6 +31,7 @@ public:
     }
 
     SLIDEWAY_HD bool beyond_state() const { return beyond_state_; }
+    SLIDEWAY_HD bool has_forces() const { return (block_.series & force_series) != 0; }
 
     /// @param report read only where a series beyond the state is selected.
     template <class Real>

@@ -16,7 +16,8 @@ inline constexpr LawInfo rigid_contact{.name = "rigid",
 inline constexpr Selection without_rigid_contact =
     selections::of({Quantity::peak_normal_force, Quantity::peak_apex_force, Quantity::mean_apex_force, Quantity::peak_crank_torque,
                     Quantity::rms_crank_torque, Quantity::switching_energy, Quantity::peak_acceleration, Quantity::rms_acceleration,
-                    Quantity::peak_channel_acceleration, Quantity::acceleration_area});
+                    Quantity::peak_channel_acceleration, Quantity::acceleration_area}) |
+    selections::force_quantities;
 
 /// Quantities that they alone have.
 inline constexpr Selection of_rigid_contact = selections::of({Quantity::capped_impacts});

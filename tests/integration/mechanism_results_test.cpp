@@ -151,6 +151,7 @@ TEST_F(DirectionsFile, HasAValueForEach) {
     EXPECT_EQ(results.values("acceleration_area"), (std::vector<double>{5, 6}));
     EXPECT_EQ(labels_of("direction"), (std::vector<std::string>{"x", "y", "z"}));
     EXPECT_EQ(labels_of("channel"), (std::vector<std::string>{"top", "front"}));
+    EXPECT_EQ(labels_of("face"), (std::vector<std::string>{"y_plus", "y_minus", "z_plus", "z_minus"}));
 }
 
 }  // namespace

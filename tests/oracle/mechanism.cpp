@@ -136,7 +136,7 @@ Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravit
     right[8] = span.dot(k.pin_acceleration) - spread.squaredNorm();
 
     Eigen::Matrix<Real, 9, 1> const accelerations = solution(matrix, right);
-    return {accelerations.segment<3>(0), accelerations.segment<3>(3)};
+    return {accelerations.segment<3>(0), accelerations.segment<3>(3), -accelerations.segment<3>(6)};
 }
 
 Real slider_energy(Inputs const& in, Parts const& parts, SliderMotion const& slider, Vector3 const& gravity) {

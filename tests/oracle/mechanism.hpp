@@ -39,7 +39,7 @@ Kinematics kinematics_of(Inputs const& in, Parts const& parts, CrankMotion const
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts);
 
 struct Motion {
-    Vector3 slider_acceleration, pin_force;
+    Vector3 slider_acceleration, pin_force, rod_force;
     Vector3 spin_up = Vector3::Constant(nan);  // ω' along the slider's axes, where it is coupled to them
 };
 

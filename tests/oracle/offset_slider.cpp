@@ -83,7 +83,7 @@ Motion solve_offset_motion(Inputs const& in, Kinematics const& k, Vector3 const&
 
     Matrix const a = solution(matrix, right);
     Matrix3 const attitude = k.slider.pose.topLeftCorner<3, 3>();
-    return {a.block(0, 0, 3, 1), a.block(6, 0, 3, 1), attitude.transpose() * Vector3(a.block(3, 0, 3, 1))};
+    return {a.block(0, 0, 3, 1), a.block(6, 0, 3, 1), -a.block(9, 0, 3, 1), attitude.transpose() * Vector3(a.block(3, 0, 3, 1))};
 }
 
 Motion solve_guided_motion(Inputs const& in, Parts const& parts, SliderMotion const& moves, Vector3 const& gravity, Vector3 const& force, Vector3 const& torque,
@@ -102,7 +102,7 @@ Motion solve_guided_motion(Inputs const& in, Parts const& parts, SliderMotion co
     }
     Matrix const a = solution(matrix, right);
     Matrix3 const attitude = moves.pose.topLeftCorner<3, 3>();
-    return {a.block(0, 0, 3, 1), Vector3(ax ? a(6, 0) : Real(0), 0, 0), attitude.transpose() * Vector3(a.block(3, 0, 3, 1))};
+    return {a.block(0, 0, 3, 1), Vector3(ax ? a(6, 0) : Real(0), 0, 0), Vector3::Zero(), attitude.transpose() * Vector3(a.block(3, 0, 3, 1))};
 }
 
 }  // namespace oracle::detail

@@ -102,6 +102,7 @@ void report_crank(Inputs const& in, Kinematics const& k, Motion const& motion, V
     Vector3 const span = k.end - k.pin, spread = k.end_velocity - k.pin_velocity;
     result.rod_angular_velocity = array_of(span.cross(spread) / span.squaredNorm());
     result.pin_force = array_of(motion.pin_force);
+    result.rod_force = array_of(motion.rod_force);
     Real const rod_length = in.rod_length;
     result.ideal_x = static_cast<double>(k.pin.x() + std::sqrt(rod_length * rod_length - k.pin.y() * k.pin.y()));
 }
@@ -121,6 +122,7 @@ void report_joint(JointLoads const& joint, Result& result) {
         result.slip_y[i] = static_cast<double>(y.slip.norm()), result.slip_z[i] = static_cast<double>(z.slip.norm());
     }
     result.contact_potential = static_cast<double>(joint.potential);
+    result.contact_force = array_of(joint.force);
     result.normal_force = array_of(joint.normal);
     result.normal_torque = array_of(joint.normal_torque);
 }
@@ -175,9 +177,9 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     auto const guided = [&](std::optional<Real> ax) {
         if (parts.offset_slider) return solve_guided_motion(in, parts, slider, felt, force, torque, ax);
         Vector3 const all = force / in.slider_mass + felt;
-        if (!ax) return Motion{all, Vector3::Zero()};
+        if (!ax) return Motion{all, Vector3::Zero(), Vector3::Zero()};
         // The drive gives what the joint and the weight leave of M x''.
-        return Motion{Vector3(*ax, all.y(), all.z()), Vector3(in.slider_mass * (*ax - all.x()), 0, 0)};
+        return Motion{Vector3(*ax, all.y(), all.z()), Vector3(in.slider_mass * (*ax - all.x()), 0, 0), Vector3::Zero()};
     };
     auto const take = [&](Motion const& motion) {
         acceleration = motion.slider_acceleration;

@@ -49,6 +49,8 @@ struct Result {
     double acceleration_front = 0;  // along K's Z of (0, 0, w_b/2 + 10 mm)
     Vector rod_angular_velocity{};  // no spin about the rod [rad/s]
     Vector pin_force{};             // F_A, on the rod at the crank pin [N]
+    Vector rod_force{};             // on the slider at the rod's pin [N]
+    Vector contact_force{};         // Σ of the joint, friction included, inertial frame [N]
     Vector normal_force{};          // Σ normal forces, without the way's X, inertial frame [N]
     Vector normal_torque{};         // their torque about the slider's centre, inertial frame [N m]
     double ideal_x = 0;             // of the mechanism without clearance [m]; NaN if it does not reach, or is free

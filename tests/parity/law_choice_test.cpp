@@ -28,7 +28,7 @@ template <class Model> std::vector<double> answers(Model const& model, oracle::C
     std::vector<double> said;
     auto const say = [&](auto const&... numbers) { (said.push_back(static_cast<double>(numbers)), ...); };
     double rates[state_size];
-    SliderReport<double> report{};
+    typename Model::template Report<double> report{};
     double const* const state = c.state.data();
     auto const lean = model.template derivative<false>(c.t, state, p, memory, rates, &report);
     say(lean.geometry, lean.contact_domain);

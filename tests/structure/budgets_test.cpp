@@ -38,9 +38,9 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 18'570u);
+    EXPECT_LE(Layer("kernels").lines(), 18'930u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'140u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'640u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'660u);
     EXPECT_LE(Layer("host").lines(), 31'430u);
     EXPECT_LE(Layer("host/store").lines(), 4'560u);
 }
@@ -48,7 +48,7 @@ TEST(Budgets, OfLines) {
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
-    EXPECT_LE(kernels.count(type).in_all, 375u);
+    EXPECT_LE(kernels.count(type).in_all, 383u);
     EXPECT_LE(Layer("host").count(type).in_all, 372u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 46u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";

@@ -16,7 +16,7 @@ struct BlockPlan {
     Parts parts;
     IntegratorSettings settings;
     std::vector<Inputs> members;
-    Selection quantities = all_quantities;
+    Selection quantities = all_quantities & ~selections::force_quantities;  // which neither cards nor laws chosen in advance tell
     Selection series = 0;
     std::vector<double> sample_times;
     std::vector<std::uint32_t> order;

@@ -47,7 +47,7 @@ inline std::vector<Inputs> varied_members(std::size_t count, Parts const& parts)
     return members;
 }
 
-/// All quantities and all series.
+/// All quantities and all series but those of forces.
 inline BlockPlan sampled_block(std::size_t count, Parts const& parts) {
     BlockPlan plan;
     plan.parts = parts;
@@ -55,7 +55,7 @@ inline BlockPlan sampled_block(std::size_t count, Parts const& parts) {
     plan.settings.rtol = plan.settings.atol = 1e-6;
     plan.settings.end_time = 0.012;
     plan.settings.max_steps = 20'000;
-    plan.series = (Selection(1) << series_count) - 1;
+    plan.series = ((Selection(1) << series_count) - 1) & ~force_series;
     for (int i = 0; i <= 24; ++i) plan.sample_times.push_back(i * 5e-4);
     return plan;
 }

@@ -56,6 +56,14 @@ TEST_F(Usage, OfCardsForLoads) {
         expect_refusal(2, "l.toml: load.push is given (the kernels for cards have no loads); use --backend cpu", {command, "l.toml", "--backend", "cuda"});
 }
 
+TEST_F(Usage, OfCardsForForces) {
+    for (std::string const name : {"peak_rod_force", "face_force_y_plus"}) {
+        write("f.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nsamples = 3\nquantities = [\"" + name + "\"]\n");
+        expect_refusal(2, "f.toml: study.quantities asks for forces of faces or pins (the kernels for cards do not tell them); use --backend cpu",
+                       {"check", "f.toml", "--backend", "cuda"});
+    }
+}
+
 TEST_F(Usage, OfCardsForRigidContacts) {
     write("r.toml", "schema = 1\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n");
     for (char const* const command : {"run", "check"}) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/joint/contact_report.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/ensemble.hpp"
@@ -212,6 +213,46 @@ TEST_P(SampledRun, PeaksAreThoseOfTheSeries) {
         }
     }
     for (int const count : negative) EXPECT_GT(count, 0) << "some member must have its largest magnitude below zero";
+}
+
+TEST_P(SampledRun, ForcesOfFacesAndPinsAreThoseOfTheSeries) {
+    double const jump = jumps() ? 1e-2 : 1e-3;
+    for (std::size_t const m : {0u, 9u}) {
+        auto const& in = members_[m];
+        double const peak_force = result_.value(m, Quantity::peak_normal_force), area_y = in.slider_length * in.way_depth, area_z = in.slider_length * in.way_width;
+        std::array<int, 4> onsets{}, touched{};
+        for (std::size_t i = 0; i <= intervals; ++i) {
+            auto const r = oracle_at(m, i);
+            for (int face = 0; face < 4; ++face) {
+                double deepest = -1;
+                for (int k = 0; k < 4; ++k) deepest = std::max(deepest, (face < 2 ? r.pen_y : r.pen_z)[static_cast<std::size_t>(face_apex(face, k))]);
+                auto const f = static_cast<std::size_t>(face);
+                onsets[f] += i > 0 && deepest > 0 && touched[f] == 0 ? 1 : 0;
+                touched[f] = deepest > 0 ? 1 : 0;
+            }
+        }
+        double largest_pv = 0;
+        for (int face = 0; face < 4; ++face) {
+            auto const of = [&](Series first) { return [this, m, s = static_cast<Series>(static_cast<int>(first) + face)](std::size_t i) { return at(s, m, i); }; };
+            double const force = largest(of(Series::face_force_y_plus)), pv = largest(of(Series::face_pv_y_plus));
+            largest_pv = std::max(largest_pv, pv);
+            EXPECT_NEAR(result_.value(m, Quantity::peak_face_force, face), force, std::max(jump, 1e-2) * peak_force) << m << " " << face_names[face];
+            EXPECT_NEAR(result_.value(m, Quantity::peak_pressure, face), result_.value(m, Quantity::peak_face_force, face) / (face < 2 ? area_y : area_z),
+                        1e-12 * peak_force / area_y);
+            EXPECT_NEAR(result_.value(m, Quantity::peak_pv, face), pv, 1e-2 * std::max(pv, largest_pv)) << m << " " << face_names[face];
+            EXPECT_NEAR(result_.value(m, Quantity::mean_pv, face), mean(of(Series::face_pv_y_plus)), jump * largest_pv) << m << " " << face_names[face];
+            EXPECT_EQ(result_.value(m, Quantity::face_onsets, face), onsets[static_cast<std::size_t>(face)]) << m << " " << face_names[face];
+        }
+        EXPECT_GT(largest_pv, 0);
+        auto const compare = [&](Quantity q, Series x) {
+            auto const of = [&](int axis, std::size_t i) { return at(static_cast<Series>(static_cast<int>(x) + axis), m, i); };
+            double const peak = largest([&](std::size_t i) { return std::hypot(of(0, i), of(1, i), of(2, i)); });
+            EXPECT_NEAR(result_.value(m, q), peak, 1e-2 * peak) << m << " " << quantity_table[static_cast<int>(q)].name;
+        };
+        compare(Quantity::peak_friction_force, Series::friction_force_x);
+        compare(Quantity::peak_rod_force, Series::rod_force_x);
+        compare(Quantity::peak_crank_pin_force, Series::crank_pin_force_x);
+    }
 }
 
 TEST_P(SampledRun, ModeTimesAndOnsetsAreThoseOfTheSampledModes) {

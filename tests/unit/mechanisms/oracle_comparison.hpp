@@ -13,6 +13,7 @@
 
 #include "host/backend/backend.hpp"
 #include "kernels/block.hpp"
+#include "kernels/joint/contact_report.hpp"
 #include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
@@ -94,6 +95,54 @@ inline void compare(std::string const& what, oracle::Case const& c, oracle::Resu
     if (c.parts.mechanism == Mechanism::slider_crank) compare.value("crank torque", r.crank_torque, torque, rounded);
 }
 
+/// The forces face by face, their places and torque, and those of the pins.
+inline void compare_forces(std::string const& what, oracle::Case const& c, oracle::Result const& r, double const* forces) {
+    Comparison compare(what);
+    Inputs const& in = c.inputs;
+    auto const of = [&](Series first, int i) { return forces[static_cast<int>(first) - first_force_series + i]; };
+    double const load = load_of(r), arm = in.slider_length + in.way_width + in.way_depth;
+    double const speed = std::abs(r.vx) + std::hypot(c.state[2], c.state[3]) + in.slider_length * std::hypot(c.state[7], c.state[8], c.state[9]);
+    double const sr = std::sin(c.state[4]), cr = std::cos(c.state[4]), sy = std::sin(c.state[5]), cy = std::cos(c.state[5]), sp = std::sin(c.state[6]),
+                 cp = std::cos(c.state[6]);
+    // Of Rz(ψ) Ry(ϑ) Rx(φ).
+    double const axes[2][3] = {{cp * sy * sr - sp * cr, sp * sy * sr + cp * cr, cy * sr}, {cp * sy * cr + sp * sr, sp * sy * cr - cp * sr, cy * cr}};
+    double normal[4] = {}, along[4] = {}, across[4] = {}, wear[4] = {}, got_along[4], got_across[4], torque[3] = {};
+    for (int face = 0; face < face_count; ++face) {
+        bool const is_y = face < 2;
+        double const side = face % 2 == 0 ? 1 : -1, width = is_y ? in.way_depth : in.way_width, across_signs[] = {1, -1, -1, 1};
+        for (int k = 0; k < 4; ++k) {
+            auto const apex = static_cast<std::size_t>(face_apex(face, k));
+            double const f = (is_y ? r.fn_y : r.fn_z)[apex];
+            normal[face] += f;
+            along[face] += f * (k < 2 ? 0.5 : -0.5) * in.slider_length;
+            across[face] += f * across_signs[k] * 0.5 * width;
+            wear[face] += f * (is_y ? r.slip_y : r.slip_z)[apex] / (in.slider_length * width);
+        }
+        double const f = of(Series::face_force_y_plus, face), x = of(Series::face_along_y_plus, face), other = of(Series::face_across_y_plus, face);
+        got_along[face] = f * x, got_across[face] = f * other;
+        double const outward = side * 0.5 * (is_y ? in.way_width : in.way_depth);
+        double const place[] = {x, (is_y ? outward : other) - c.state[0], (is_y ? other : outward) - c.state[1]};
+        for (int i = 0; i < 3; ++i) torque[i] += side * f * (place[(i + 1) % 3] * axes[is_y ? 0 : 1][(i + 2) % 3] - place[(i + 2) % 3] * axes[is_y ? 0 : 1][(i + 1) % 3]);
+    }
+    compare.group("forces of faces", normal, forces, 4);
+    compare.group("moments along", along, got_along, 4, load * in.slider_length);
+    compare.group("moments across", across, got_across, 4, load * (in.way_width + in.way_depth));
+    compare.group("p v", wear, &forces[static_cast<int>(Series::face_pv_y_plus) - first_force_series], 4,
+                  1e-6 * load * speed / (in.slider_length * std::min(in.way_width, in.way_depth)));
+    if (!c.parts.misaligned_way) compare.group("torque of the normal forces", r.normal_torque, torque, 3, load * arm);
+    compare.group("contact force", r.contact_force, &forces[static_cast<int>(Series::contact_force_x) - first_force_series], 3, load);
+    double friction = 0, got_friction = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        friction = std::hypot(friction, r.contact_force[i] - r.normal_force[i]);
+        got_friction = std::hypot(got_friction, of(Series::friction_force_x, static_cast<int>(i)));
+    }
+    compare.value("friction", friction, got_friction, load);
+    if (!selects(info(c.parts.mechanism).series, Series::rod_force_x)) return;
+    double const weight = (in.slider_mass + in.rod_mass) * std::abs(in.gravity);
+    compare.group("rod's force", r.rod_force, &forces[static_cast<int>(Series::rod_force_x) - first_force_series], 3, load + weight);
+    compare.group("crank pin's force", r.pin_force, &forces[static_cast<int>(Series::crank_pin_force_x) - first_force_series], 3, load + weight);
+}
+
 /// Probes the state of a spatial mechanism and compares all that the probe tells.
 /// @return false, with nothing compared, where the state has no equations
 inline bool compare_probe(Isa isa, oracle::Case const& c, std::string const& what) {
@@ -114,6 +163,7 @@ inline bool compare_probe(Isa isa, oracle::Case const& c, std::string const& wha
     EXPECT_EQ(p.points, r.points) << what;
     compare(what, c, r, p.derivative, depths.data(), forces.data(), powers, p.energy, p.contact_potential,
             p.crank_torque);
+    compare_forces(what, c, r, p.forces);
     return true;
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "kernels/block.hpp"
+#include "kernels/joint/joint_forces.hpp"
 #include "kernels/observers/acceleration_record.hpp"
+#include "kernels/observers/force_record.hpp"
 #include "kernels/observers/slider_observer.hpp"
 
 namespace slideway::observer_test {
@@ -180,6 +182,60 @@ TEST(AccelerationRecord, HoldsPeaksMeanSquaresAndAreas) {
     EXPECT_EQ(value(Quantity::peak_channel_acceleration, 1), 6);
     EXPECT_EQ(value(Quantity::acceleration_area, 0), 2 * 3.75 + 2 * 5);
     EXPECT_EQ(value(Quantity::acceleration_area, 1), 2 * 4.5 + 2 * 6);
+}
+
+TEST(ForceRecord, HoldsPeaksMeansAndOnsetsOfEachFace) {
+    auto const with = [](double force, bool touches) {
+        ForceReport<double, Report> r{};
+        for (int face = 0; face < face_count; ++face) {
+            r.forces.force[face] = force + face, r.forces.pressure[face] = 10 * force + face, r.forces.pv[face] = 100 * force + face;
+            double const depth = touches && face != 2 ? 1e-6 : -1e-6;
+            r.contact.penetration[face] = {-1, depth, -1, -1};
+        }
+        r.forces.friction = {force, 2 * force, -2 * force}, r.forces.rod = {0, -3 * force, 4 * force}, r.forces.crank_pin = {-force, 0, 0};
+        return r;
+    };
+    ForceRecord<double> record{};
+    record.start(true, with(0, false));
+    record.begin_next(true, with(0, false));
+    auto const step = [&](bool accepted, double h, auto const& r) {
+        record.begin_step(0.5);
+        record.add_stage(0.5, r);
+        record.accept(accepted, h, r);
+        record.see_faces(accepted, r);
+        if (accepted) record.begin_next(true, r);
+    };
+    step(true, 2, with(1, true));    // all but one are met
+    step(true, 2, with(3, true));    // and stay
+    step(false, 9, with(99, false)); // not accepted
+    step(true, 1, with(2, false));
+    Quad<double> const held[] = {{1, 1, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}};
+    record.turn(true, held);
+    record.turn(true, held);
+    std::array<double, quantity_columns> row{};
+    record.finish(0, 5, everything, row.data());
+    auto const value = [&](Quantity q, int column) { return row[static_cast<std::size_t>(quantity_column(q) + column)]; };
+    double const onsets[] = {2, 1, 1, 1};
+    for (int face = 0; face < face_count; ++face) {
+        EXPECT_EQ(value(Quantity::peak_face_force, face), 3 + face);
+        EXPECT_EQ(value(Quantity::peak_pressure, face), 30 + face);
+        EXPECT_EQ(value(Quantity::peak_pv, face), 300 + face);
+        EXPECT_EQ(value(Quantity::mean_pv, face), (2 * 50 + 2 * 200 + 250) / 5.0 + face);
+        EXPECT_EQ(value(Quantity::face_onsets, face), onsets[face]);
+    }
+    EXPECT_EQ(value(Quantity::peak_friction_force, 0), 9);
+    EXPECT_EQ(value(Quantity::peak_rod_force, 0), 15);
+    EXPECT_EQ(value(Quantity::peak_crank_pin_force, 0), 3);
+}
+
+TEST(ForceRecord, SeriesOfForcesAreInTheOrderOfTheTable) {
+    ForceReport<double, Report> r{};
+    auto& f = r.forces;
+    for (int i = 0; i < face_count; ++i) f.force[i] = i, f.along[i] = 4 + i, f.across[i] = 8 + i, f.pv[i] = 12 + i;
+    f.friction = {16, 17, 18}, f.contact = {19, 20, 21}, f.rod = {22, 23, 24}, f.crank_pin = {25, 26, 27};
+    for (int i = first_force_series; i < series_count; ++i) EXPECT_EQ(r.series_value(i), i - first_force_series) << series_table[i].name;
+    r.x = 5;
+    EXPECT_EQ(r.series_value(static_cast<int>(Series::x)), 5);
 }
 
 TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
@@ -365,7 +421,8 @@ TEST(Observer, WritesTheSelectedQuantitiesAlone) {
         watched.start(busy());
         watched.step(1, busy());
         watched.finish(1, Selection(1) << chosen);
-        bool const elsewhere = selects(AccelerationRecord<double>::quantities, static_cast<Quantity>(chosen));
+        bool const elsewhere =
+            selects(AccelerationRecord<double>::quantities | ForceRecord<double>::quantities, static_cast<Quantity>(chosen));
         for (int q = 0; q < quantity_count; ++q) {
             for (int column = 0; column < quantity_table[q].columns; ++column) {
                 bool const written = watched(static_cast<Quantity>(q), column) != Watched::unwritten;
