@@ -250,6 +250,9 @@ std::optional<Problem> broken_rule(Key const& key, double value) {
 namespace {
 
 /// What numbers ask of one another, of a member whose own rules they meet.  {crank}, {rod} … stand for the numbers.
+/// How far off the way's axis a rod has to reach in a turn [m].
+double most_reach(Inputs const& in, Parts const& parts) { return in.crank_length + (parts.offset_slider ? std::hypot(in.pin_y, in.pin_z) : 0); }
+
 constexpr struct {
     std::string_view key, other;
     bool (*when)(Inputs const&, Parts const&);
@@ -259,9 +262,9 @@ constexpr struct {
      [](Inputs const& in, Parts const& parts) { return parts.damping == Damping::restitution && !parts.rigid && in.restitution == 0; },
      "what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"},
     {"mechanism.rod_length", "mechanism.crank_length",
-     [](Inputs const& in, Parts const& parts) { return parts.drive.by != DriveBy::speed && in.rod_length <= in.crank_length; },
+     [](Inputs const& in, Parts const& parts) { return parts.drive.by != DriveBy::speed && in.rod_length <= most_reach(in, parts); },
      "the crank of {crank} m cannot turn fully", "use a rod longer than the crank"},
-    {"mechanism.rod_length", "mechanism.crank_length", [](Inputs const& in, Parts const&) { return in.crank_speed != 0 && in.rod_length <= in.crank_length; },
+    {"mechanism.rod_length", "mechanism.crank_length", [](Inputs const& in, Parts const& parts) { return in.crank_speed != 0 && in.rod_length <= most_reach(in, parts); },
      "the crank of {crank} m cannot turn fully", "use a rod longer than the crank, or crank_speed = 0"},
     {"drive.inertia", "drive.kind", [](Inputs const& in, Parts const& parts) { return parts.mechanism == Mechanism::scotch_yoke_motor && in.drive_inertia == 0; },
      "nothing else turns at a dead centre", "use a value > 0"},

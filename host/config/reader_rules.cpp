@@ -98,7 +98,9 @@ void apply_rules(Reading& reading, Known known) {
 
 void apply_rules(Reading const& reading, Key const& varied, Node const& node) {
     for (KeyRule const& rule : reading.rules) {
-        if (rule.after == Known::variation && varied.name.starts_with(rule.key) && rule.when(reading))
+        bool const whole = !rule.key.ends_with('.') && !rule.key.ends_with('_');  // a key, or how several begin
+        bool const meant = whole ? varied.name == rule.key : varied.name.starts_with(rule.key);
+        if (rule.after == Known::variation && meant && rule.when(reading))
             refuse(node, {filled(rule.why, reading.scene), filled(rule.instead, reading.scene)});
     }
 }

@@ -24,6 +24,10 @@ bool is_written(Key const& key, Scene const& scene) {
     if (key.twin != nullptr || !counts_for(key, parts)) return false;
     if (is_idle_source(key, parts, given_or_varied(scene)) && key.get(scene.inputs) == key.preset) return false;
     bool const restitution = parts.damping == Damping::restitution;
+    // A scene with all of its faces does not say what is the same of both.
+    Inputs const& in = scene.inputs;
+    if (key.member == &Inputs::clearance_y && in.clearance_y_plus > 0 && in.clearance_y_minus > 0) return false;
+    if (key.member == &Inputs::clearance_z && in.clearance_z_plus > 0 && in.clearance_z_minus > 0) return false;
     if (lays_way(key)) return parts.misaligned_way;
     if (is_of_body(key)) return parts.offset_slider;
     if (key.name == "contact.restitution") return restitution;

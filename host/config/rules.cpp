@@ -1,7 +1,9 @@
 #include "host/config/rules.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
@@ -51,10 +53,16 @@ bool nothing_varies(R r) {
     });
 }
 
-bool gives_both_faces(R r, char axis) {
-    std::string const key = std::string("joint.clearance_") + axis;
-    return r.given(key + "_plus") && r.given(key + "_minus");
+/// Whether both faces of an axis have clearances of their own, given or varied.
+bool has_both_faces(R r, std::string const& axis) {
+    return std::ranges::all_of(std::array{"_plus", "_minus"}, [&](char const* side) {
+        std::string const key = "joint.clearance_" + axis + side;
+        return r.given(key) || varies(r.scene, key);
+    });
 }
+bool both_y(R r) { return has_both_faces(r, "y"); }
+bool both_z(R r) { return has_both_faces(r, "z"); }
+bool all_faces(R r) { return both_y(r) && both_z(r); }
 
 bool no_restitution(R r) {
     constexpr std::string_view name = "contact.restitution";
@@ -74,7 +82,7 @@ bool has_one_section(R r) {
     return is_sweep(r) && chaos.exponents > 0 && chaos.transient.value == 0 && chaos.span.seconds(turn) < 2 * turn;
 }
 
-constexpr std::string_view each_face = "where both faces have their own";
+constexpr std::string_view each_face = "where all of its faces have their own", own_faces = "its faces have their own", vary_faces = "vary those";
 constexpr std::string_view replaced = "contact.restitution replaces it", one_of_two = "remove one of the two";
 constexpr std::string_view no_series = "kind = \"{study}\" stores no time series", with_series = "remove it, or use kind = \"ensemble\"";
 constexpr std::string_view values_of_sweep = "a sweep needs its values", give_values = "give study.values, or study.from, study.to and study.points";
@@ -118,10 +126,9 @@ constexpr KeyRule rows[] = {
     {contacts, "contact.chi_line", gives_restitution, excludes, replaced, one_of_two},
     {contacts, "contact.chi_surface", gives_restitution, excludes, replaced, one_of_two},
 
-    {contacts, "joint.clearance_y", [](R r) { return gives_both_faces(r, 'y'); }, idle, each_face},
-    {contacts, "joint.clearance_z", [](R r) { return gives_both_faces(r, 'z'); }, idle, each_face},
-    {variation, "joint.clearance_y", [](R r) { return gives_both_faces(r, 'y'); }, excludes, "both of its faces have their own", "vary those"},
-    {variation, "joint.clearance_z", [](R r) { return gives_both_faces(r, 'z'); }, excludes, "both of its faces have their own", "vary those"},
+    {variation, "joint.clearance_y", both_y, excludes, own_faces, vary_faces},
+    {variation, "joint.clearance_z", both_z, excludes, own_faces, vary_faces},
+    {variation, "joint.clearance", all_faces, excludes, own_faces, vary_faces},
     {variation, "friction.", [](R r) { return !r.scene.parts.friction; }, excludes, "friction is off", "add a [friction] table"},
     {variation, "contact.eta", by_restitution, excludes, replaced, one_of_two},
     {variation, "contact.chi_", by_restitution, excludes, replaced, one_of_two},
@@ -227,6 +234,9 @@ constexpr KeyRule rows[] = {
     {integrator, "integrator.locate_modes", [](R r) { return leaps(r) && can_locate(r); }, warns, "integrator.locate_modes is false{leaping}", "leave it out"},
     {integrator, "integrator.method", [](R r) { return leaps(r) && !can_locate(r); }, warns, "integrator.method is {method}{leaping}", "use method {any_pair}"},
 
+    {all, "joint.clearance_y", both_y, idle, each_face},
+    {all, "joint.clearance_z", both_z, idle, each_face},
+    {all, "joint.clearance", all_faces, idle, each_face},
     {all, "study.store", [](R r) { return keeps_statistics(r) && of(r, DesignKind::saltelli); }, excludes,
      "sensitivity indices need every member's values", "use store = \"members\""},
     {all, "study.store", [](R r) { return keeps_statistics(r) && !r.scene.sample_times.empty(); }, excludes,

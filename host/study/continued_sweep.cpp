@@ -16,13 +16,15 @@ struct Place {
     bool is_known = false;
 };
 
-/// A state of a joint in another one: places and velocities keep their share of the clearance, tilts that of the tighter
+/// A state of a joint in another one: places from the middle between faces and velocities keep their share of the clearance, tilts that of the tighter
 /// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.
 void put(Inputs& inputs, Inputs const& there, bool spatial) {
     double const along_y = mean_clearance_y(inputs) / mean_clearance_y(there), along_z = mean_clearance_z(inputs) / mean_clearance_z(there);
     double const tilt = spatial ? std::min(along_y, along_z) : along_y;
-    for (auto const input : {&Inputs::y, &Inputs::vy}) inputs.*input = along_y * there.*input;
-    for (auto const input : {&Inputs::z, &Inputs::vz}) inputs.*input = along_z * there.*input;
+    inputs.y = to_middle_y(inputs) + along_y * (there.y - to_middle_y(there));
+    inputs.z = to_middle_z(inputs) + along_z * (there.z - to_middle_z(there));
+    inputs.vy = along_y * there.vy;
+    inputs.vz = along_z * there.vz;
     for (auto const input : {&Inputs::roll, &Inputs::yaw, &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz}) {
         inputs.*input = tilt * there.*input;
     }

@@ -22,14 +22,16 @@ template <class Real> struct SliderLinearisation {
     bool is_coupled = false;  // where turning moves the pin or the centre of mass, in place of these masses:
     Real coupled_mass[5][5];  // of ν
 
-    /// Takes the masses of a slider whose turning moves its pin or its centre of mass.  @param slope κ of the guide
-    template <class Offset, class Turning, class Parameters>
+    /// Takes the masses of a slider whose turning moves its pin or its centre of mass.  @param slope κ of the guide  @tparam free x' is, too
+    template <bool free, class Offset, class Turning, class Parameters>
     SLIDEWAY_FN void couple(Offset const& offset, Translation<Real> const& slope, Turning const& turning, Parameters const& p) {
-        struct { Real xx, yy, yz, zz; } const of_pin{Real(1.0), mass_y, mass_yz, mass_z};
+        struct { Real xx, yy, yz, zz; } const of_pin{free ? p.slider_mass : Real(1.0), mass_y, mass_yz, mass_z};
         Real six[6][6];
-        offset.put_masses(of_pin, Real(0.0), slope, turning, p, six);
+        offset.put_masses(of_pin, Real(free ? 1.0 : 0.0), slope, turning, p, six);
+        // x' gives way; where it is prescribed nothing stands beside its own.
+        Real const inverse = Real(1.0) / six[0][0];
         for (int i = 0; i < 5; ++i) {
-            for (int j = 0; j < 5; ++j) coupled_mass[i][j] = six[i + 1][j + 1];
+            for (int j = 0; j < 5; ++j) coupled_mass[i][j] = fnma(six[i + 1][0] * inverse, six[0][j + 1], six[i + 1][j + 1]);
         }
         is_coupled = true;
     }
@@ -143,12 +145,26 @@ private:
 
     /// Trace of M⁻¹(−matrix), of which positive terms alone count.
     SLIDEWAY_FN Real trace(Real const (&matrix)[5][5]) const {
+        if (is_coupled) return coupled_trace(matrix);
         Real const scale = Real(1.0) / fms(mass_y, mass_z, mass_yz * mass_yz);
         Real const y = clamped(fms(mass_yz, matrix[1][0], mass_z * matrix[0][0]) * scale);
         Real const z = clamped(fms(mass_yz, matrix[0][1], mass_y * matrix[1][1]) * scale);
         Real const turning = (clamped(negated(matrix[2][2]) / inertia.x) + clamped(negated(matrix[3][3]) / inertia.y)) +
                              clamped(negated(matrix[4][4]) / inertia.z);
         return (y + z) + turning;
+    }
+
+    SLIDEWAY_NOINLINE Real coupled_trace(Real const (&matrix)[5][5]) const {
+        LuFactors<5, Real> masses;
+        masses.factor(coupled_mass);
+        Real sum(0.0);
+        for (int j = 0; j < 5; ++j) {
+            Real column[5];
+            for (int i = 0; i < 5; ++i) column[i] = negated(matrix[i][j]);
+            masses.solve(column);
+            sum = sum + clamped(column[j]);
+        }
+        return sum;
     }
 
     /// M r_ν + hγ K G⁻¹ r_q.

@@ -52,7 +52,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         guide.masses(p, out);
         out.inertia = p.inertia;
         if constexpr (may_be_offset) {
-            if (at.is_offset()) out.couple(at.offset, guide.slope(), turning, p);
+            if (at.is_offset()) out.template couple<free_along>(at.offset, guide.slope(), turning, p);
         }
         out.roll = turning.angles.roll;
         out.yaw = turning.angles.yaw;
@@ -95,7 +95,8 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     /// Acceleration [m/s²] of y and z, on the mean over a step, of a slider that follows a misaligned way: dy/dx and dz/dx of its axis times x''.
     template <class Real>
     SLIDEWAY_NOINLINE static Translation<Real> way_bend(Real t, Real step, Real const* s, Numbers<Real> const& p, DrivePlan const& drive) {
-        auto const along = [&](Real at) { return Guide::along(at, s, p, drive); };
+        auto const lies = axes(attitude(s[4], s[5], s[6]));
+        auto const along = [&](Real at) { return along_way<Guide>(at, s, lies, p, drive, may_be_offset); };
         Real const start = along(t), middle = along(fma(Real(0.5), step, t)), end = along(t + step);
         auto const goes = step > Real(0.0);
         Real const safe = select(goes, step, Real(1.0)), bend = select(goes, Real(4.0) * ((start - middle) + (end - middle)) / (safe * safe), Real(0.0));
@@ -113,6 +114,10 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
 
 private:
     static constexpr bool may_be_offset = has_group(Guide::info.keys, KeyGroup::body);
+    static constexpr bool free_along = [] {
+        if constexpr (requires { Guide::is_free; }) return Guide::is_free;
+        else return false;
+    }();
 
     /// Under loads, or another drive, a function of its own: what a scene does not have is not even a place on the stack.
     template <bool Full, class Real, class Laws>

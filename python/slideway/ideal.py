@@ -20,7 +20,7 @@ def ideal(scene: Mapping[str, Any], variable: str, time: np.ndarray) -> np.ndarr
 
     Returns:
         Its values at these times in its own unit, or None where there is no ideal motion to compare with: of forces, of a
-        slider that nothing drives along the way, or of what no part of the mechanism prescribes.
+        slider that nothing drives along the way or whose pin is not in its hole's centre, or of what no part of the mechanism prescribes.
 
     >>> import numpy as np
     >>> ideal(slideway.scene(slideway.example()), "x", np.array([0.0, 1.0])).round(4)
@@ -28,6 +28,8 @@ def ideal(scene: Mapping[str, Any], variable: str, time: np.ndarray) -> np.ndarr
     """
     if variable in _on_axis:
         return np.zeros_like(time)
+    if any(value for key, value in scene.get("slider", {}).items() if key.startswith("pin_")):
+        return None
     mechanism = scene["mechanism"]
     motion = _motions.get(str(mechanism["kind"]))
     if motion is None or variable not in ("x", "vx", "ax") or drive_kind(scene) != "speed":

@@ -14,6 +14,7 @@ from .scenes import scene, varied
 
 Array = NDArray[np.float64]
 _keys = ("offset_y", "offset_z", "roll", "yaw", "pitch")
+_places = ("way.", "joint.clearance_y_", "joint.clearance_z_")  # keys that say where the faces lie
 
 
 def rotation(roll: Any, yaw: Any, pitch: Any) -> Array:
@@ -38,13 +39,39 @@ def rotation(roll: Any, yaw: Any, pitch: Any) -> Array:
     return np.stack([np.stack(np.broadcast_arrays(*row), -1) for row in rows], -2)
 
 
+def face_clearances(joint: Mapping[str, Any], axis: str) -> tuple[float, float]:
+    """Clearances [m] of the faces on the sides of + and − of "y" or "z"; NaN where the joint has none.
+
+    >>> face_clearances({"clearance_y": 1e-4, "clearance_y_plus": 2e-5}, "y")
+    (2e-05, 0.0001)
+    """
+    common = joint.get(f"clearance_{axis}", np.nan)
+    return float(joint.get(f"clearance_{axis}_plus", common)), float(joint.get(f"clearance_{axis}_minus", common))
+
+
+def mean_clearance(joint: Mapping[str, Any], axis: str) -> float:
+    """Half the play along "y" or "z" [m]."""
+    return sum(face_clearances(joint, axis)) / 2
+
+
+def _middle(resolved: Mapping[str, Any]) -> Array:
+    """From the way's axis to the middle between its faces, along its axes [m] (model.md 16)."""
+    shifts = [(minus - plus) / 2 for plus, minus in (face_clearances(resolved.get("joint", {}), axis) for axis in ("y", "z"))]
+    return np.nan_to_num(np.array([0.0, *shifts]))
+
+
+def off_pin(resolved: Mapping[str, Any]) -> bool:
+    """Whether the slider is moved elsewhere than at its hole's centre."""
+    return any(value for key, value in resolved.get("slider", {}).items() if key.startswith("pin_"))
+
+
 def misaligned(resolved: Mapping[str, Any]) -> bool:
-    """Whether the way lies or points elsewhere than it should."""
-    return any(resolved.get("way", {}).values())
+    """Whether the way lies or points elsewhere than it should, or its faces have different clearances."""
+    return any(resolved.get("way", {}).values()) or bool(_middle(resolved).any())
 
 
 def frame(resolved: Mapping[str, Any]) -> tuple[Array, Array]:
-    """Where the way's axis passes through, u_l [m], and its attitude A_l, columns the way's axes.
+    """Where the middle between the way's faces passes through, u_l [m], and its attitude A_l, columns the way's axes.
 
     >>> point, attitude = frame({"mechanism": {"kind": "carriage"}, "way": {"offset_y": 2e-3}})
     >>> point.tolist()
@@ -53,7 +80,8 @@ def frame(resolved: Mapping[str, Any]) -> tuple[Array, Array]:
     offset_y, offset_z, roll, yaw, pitch = (float(resolved.get("way", {}).get(key, 0.0)) for key in _keys)
     mechanism = resolved["mechanism"]
     reach = float(mechanism.get("rod_length", 0.0))
-    return np.array([reach, offset_y, offset_z]), rotation(roll, yaw, pitch)
+    attitude = rotation(roll, yaw, pitch)
+    return np.array([reach, offset_y, offset_z]) + attitude @ _middle(resolved), attitude
 
 
 def along(resolved: Mapping[str, Any], time: Array, y: Array, z: Array, crank: Array | None = None) -> Array | None:
@@ -63,8 +91,10 @@ def along(resolved: Mapping[str, Any], time: Array, y: Array, z: Array, crank: A
         time [s]; y, z: of the slider's centre, inertial [m]; crank: angle [rad], of constant speed where it is left out.
 
     Returns:
-        None of a slider that nothing holds along the way, or whose crank's angle is not known.
+        None of a slider that nothing holds along the way, whose crank's angle is not known, or whose pin is not in its hole's centre.
     """
+    if off_pin(resolved):
+        return None
     mechanism = resolved["mechanism"]
     if "rod_length" not in mechanism:
         return ideal(resolved, "x", time)
@@ -93,7 +123,7 @@ def place(resolved: Mapping[str, Any], x: Array | None, y: Array, z: Array) -> A
 def may_be_misaligned(result: xr.Dataset) -> bool:
     """Whether the way of any member can lie elsewhere than it should."""
     resolved = scene(result) if "scene" in result.attrs else {}
-    return misaligned(resolved) or any(key.startswith("way.") for key in varied(result) if resolved)
+    return misaligned(resolved) or any(key.startswith(_places) for key in varied(result) if resolved)
 
 
 def across(result: xr.Dataset, members: Sequence[int]) -> tuple[Array, Array] | None:
@@ -106,7 +136,7 @@ def across(result: xr.Dataset, members: Sequence[int]) -> tuple[Array, Array] | 
         return ys, zs
     time = result["time"].values
     # What members share is read once: reading a scene takes longer than turning a series.
-    own = any(key.startswith(("way.", "mechanism.")) for key in varied(result))
+    own = any(key.startswith((*_places, "mechanism.")) for key in varied(result))
     common = None if own else scene(result)
     found = []
     for k, (number, y, z) in enumerate(zip(members, ys, zs, strict=True)):

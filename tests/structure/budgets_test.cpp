@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 18'930u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'140u);
+    EXPECT_LE(Layer("kernels").lines(), 18'960u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'145u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'660u);
-    EXPECT_LE(Layer("host").lines(), 31'430u);
+    EXPECT_LE(Layer("host").lines(), 31'480u);
     EXPECT_LE(Layer("host/store").lines(), 4'560u);
 }
 

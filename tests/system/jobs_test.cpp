@@ -192,6 +192,10 @@ TEST(Jobs, OverhangPressesItsEdgesAsItsMomentsSay) {
     double const press = mass * weight * (overhang - h * mu) / (l - pin * mu);
     EXPECT_NEAR(late.mean("friction_loss") - early.mean("friction_loss"), mu * press * 0.2 * 0.08, 3e-3 * mu * press * 0.2 * 0.08);
     EXPECT_NEAR(late.mean("crank_work") - early.mean("crank_work"), mu * press * 0.2 * 0.08, 3e-3 * mu * press * 0.2 * 0.08);
+    // On the way back friction turns round.
+    Job const end("overhang.toml", until("0.5")), middle("overhang.toml", until("0.42"));
+    double const back = mass * weight * (overhang + h * mu) / (l + pin * mu);
+    EXPECT_NEAR(end.mean("friction_loss") - middle.mean("friction_loss"), mu * back * 0.2 * 0.08, 3e-3 * mu * back * 0.2 * 0.08);
 }
 
 TEST(Jobs, LeaningWayPressesOnTwoFaces) {

@@ -184,13 +184,14 @@ TEST(OffsetSliders, AreTheSameInEveryLane) {
 
 /// A linearly implicit method converges whatever its matrix; that its steps stay as large as without an offset shows that the matrix is right.
 TEST(OffsetSliders, TakeTheStiffMethodsStepsAsOthers) {
-    for (Mechanism const mechanism : {Mechanism::slider_crank, Mechanism::scotch_yoke}) {
+    for (Mechanism const mechanism : {Mechanism::slider_crank, Mechanism::scotch_yoke, Mechanism::free_slider}) {
         SCOPED_TRACE(std::string(info(mechanism).name));
         Loaded l{{}, {}};
         l.in.y = -l.in.clearance_y - 1e-7, l.in.law_a = 1e9, l.in.law_b = 3e3;
         auto const with = [&](Method method, double tolerance, bool offset) {
             Loaded member = l;
-            if (offset) member.in.mass_center_x = 0.004, member.in.pin_x = -0.006, member.in.pin_y = 0.003;
+            if (offset) member.in.mass_center_x = 0.004, member.in.mass_center_y = 0.02;
+            if (offset && mechanism != Mechanism::free_slider) member.in.pin_x = -0.006, member.in.pin_y = 0.003;
             auto o = offset_options(member, mechanism, 0.02, tolerance);
             o.parts.law = Law::kelvin_voigt, o.parts.offset_slider = offset, o.parts.friction = true;
             o.settings.method = method;
@@ -198,7 +199,7 @@ TEST(OffsetSliders, TakeTheStiffMethodsStepsAsOthers) {
         };
         auto const reference = with(Method::dop853, 1e-11, true), stiff = with(Method::ros34pw2, 1e-8, true), plain = with(Method::ros34pw2, 1e-8, false);
         for (std::size_t i : {0U, 6U}) EXPECT_NEAR(stiff.states[0][i], reference.states[0][i], 1e-9) << i;
-        EXPECT_LT(stiff.records[0].steps_accepted, 2 * plain.records[0].steps_accepted + 50);
+        EXPECT_LT(stiff.records[0].steps_accepted, 3 * plain.records[0].steps_accepted);
     }
 }
 

@@ -14,7 +14,7 @@ from ..palette import colours, grey
 from ..sampling import coarse_words, too_coarse
 from ..scenes import scene
 from ..sections import sections
-from ..way import across, may_be_misaligned
+from ..way import across, mean_clearance, may_be_misaligned
 from .style import Members, axis, chosen, finish, label, most_lines, of_result, scaled, variable, words_of
 
 
@@ -102,5 +102,5 @@ def _gaps(result: xr.Dataset, members: list[int]) -> set[tuple[float, float]]:
     """Clearances along z and y [m] of few members, or of all where they are the same."""
     shown = members if len(members) <= most_lines else [members[0], members[len(members) // 2], members[-1]]
     joints = [scene(result, m).get("joint", {}) for m in shown]
-    gaps = {(float(j["clearance_z"]), float(j["clearance_y"])) for j in joints if "clearance_z" in j and "clearance_y" in j}
+    gaps = {gap for gap in ((mean_clearance(j, "z"), mean_clearance(j, "y")) for j in joints) if not np.isnan(gap).any()}
     return gaps if len(members) <= most_lines or len(gaps) == 1 else set()

@@ -12,7 +12,7 @@ from ..palette import grey
 from ..sampling import coarse_words, too_coarse
 from ..scenes import scene
 from ..signals import running_integral
-from ..way import across, may_be_misaligned
+from ..way import across, mean_clearance, may_be_misaligned
 from .style import Members, axis, chosen, draw_members, failures, finish, label, of_result, scaled, series_of, words_of
 
 
@@ -104,8 +104,5 @@ def _clearance(result: xr.Dataset, members: list[int], name: str) -> float | Non
         return None
     if len(members) > 1 and any(key.startswith("joint.") for key in scene(result).get("study", {}).get("vary", {})):
         return None
-    try:
-        ends = {float(scene(result, m)["joint"][f"clearance_{name}"]) for m in (members[0], members[-1])}
-    except KeyError:
-        return None
-    return ends.pop() if len(ends) == 1 else None
+    first, last = (mean_clearance(scene(result, m).get("joint", {}), name) for m in (members[0], members[-1]))
+    return first if first == last else None

@@ -10,6 +10,7 @@ import xarray as xr
 
 import slideway
 from slideway.ideal import drive_kind
+from slideway.way import mean_clearance
 
 from .numbers import amount, counted, number
 
@@ -87,7 +88,7 @@ def _speed(scene: dict[str, Any]) -> str:
 
 
 def _clearance(joint: dict[str, Any]) -> str:
-    gaps = [joint[key] * 1e3 for key in ("clearance_y", "clearance_z") if key in joint]
+    gaps = [gap * 1e3 for gap in (mean_clearance(joint, axis) for axis in ("y", "z")) if not np.isnan(gap)]
     if len(gaps) == 2 and gaps[0] != gaps[1]:
         return f"{number(gaps[0])} mm along Y, {number(gaps[1])} mm along Z"
     return f"{number(gaps[0])} mm" if gaps else ""

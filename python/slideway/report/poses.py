@@ -129,8 +129,8 @@ def _joint(scene: dict[str, Any]) -> Joint:
         sizes["slider_length"],
         sizes["way_width"],
         sizes["way_depth"],
-        sizes["clearance_y"],
-        sizes["clearance_z"],
+        way.mean_clearance(sizes, "y"),
+        way.mean_clearance(sizes, "z"),
     )
 
 

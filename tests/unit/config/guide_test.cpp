@@ -56,13 +56,16 @@ TEST(Guide, IsRefusedWhereItHasNoMeaning) {
     EXPECT_EQ(error("free_slider", "[slider]\nmass_center_x = 1e-3\n", "rigid"), "");
     std::string const both = "[joint]\nclearance_y_plus = 1e-5\nclearance_y_minus = 2e-5\n";
     EXPECT_EQ(error("carriage", both + "[study]\nmembers = 4\n[study.vary]\n\"joint.clearance_y\" = { dist = \"unif\", low = 1e-5, high = 2e-5 }\n"),
-              "study.vary.joint.clearance_y is a table (both of its faces have their own); vary those");
+              "study.vary.joint.clearance_y is a table (its faces have their own); vary those");
+    EXPECT_EQ(error("carriage", both + "[study]\nmembers = 4\n[study.vary]\n\"joint.clearance_y_plus\" = { dist = \"unif\", low = 1e-5, high = 2e-5 }\n"), "");
+    EXPECT_EQ(error("slider_crank", "[slider]\npin_y = \"95 mm\"\n").substr(0, 22), "mechanism.rod_length i");
 }
 
 TEST(Guide, SaysThatAClearanceOfBothFacesHasNoEffectBesideTheirOwn) {
     auto const warnings = scene("carriage", "[joint]\nclearance_y = 1e-4\nclearance_y_plus = 1e-5\nclearance_y_minus = 2e-5\n").warnings;
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_EQ(warnings[0], "joint.clearance_y has no effect where both faces have their own");
+    EXPECT_EQ(warnings[0], "joint.clearance_y has no effect where all of its faces have their own");
+    EXPECT_TRUE(parse_scene(resolved_toml(scene("carriage", "[joint]\nclearance_y_plus = 1e-5\nclearance_y_minus = 2e-5\n")), "again.toml").warnings.empty());
 }
 
 }  // namespace
