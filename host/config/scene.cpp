@@ -78,7 +78,7 @@ std::vector<DerivedNumber> derived_numbers(Scene const& scene) {
     Inputs const others = complete_inputs(other, info(scene.parts.mechanism));
     std::vector<DerivedNumber> numbers;
     for (Key const& key : keys()) {
-        if (!counts_for(key, scene.parts) || !std::isnan(key.get(given))) continue;
+        if (!counts_for(key, scene.parts) || !std::isnan(key.get(given)) || lays_way(key)) continue;  // faces are as their axis says
         std::string words = derivation_of(key, scene.parts, scene.inputs);
         // What follows from what members vary in is not what any of them has.
         if (auto const note = words.find(" ("); key.get(others) != key.get(complete) && !std::isnan(key.get(complete)))

@@ -150,11 +150,15 @@ private:
         }
         PointMotion<Real> centre{position, velocity, {}};
         [[maybe_unused]] typename OffsetSlider<Real>::Answer answer;
-        if (loaded && at.is_offset()) {
-            if constexpr (loaded && may_be_offset) answer = at.offset.answer(guide, force, to_slider(motion.axes, wrench.torque), turning, p);
-            centre.acceleration = answer.hole;
-            turning.put_rates(answer.spin_up, rates);
-        } else {
+        bool const is_offset = loaded && at.is_offset();
+        if constexpr (loaded && may_be_offset) {
+            if (is_offset) {
+                answer = at.offset.answer(guide, force, to_slider(motion.axes, wrench.torque), turning, p);
+                centre.acceleration = answer.hole;
+                turning.put_rates(answer.spin_up, rates);
+            }
+        }
+        if (!is_offset) {
             centre.acceleration = guide.accelerations(force, p);
             turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
         }
@@ -165,8 +169,10 @@ private:
         guide.put_rates(centre.acceleration, rates);
         if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
         if constexpr (Full) {
-            if (loaded && at.is_offset()) at.offset.tell(guide, centre, answer, turning, p, block.powers_alone, *report);
-            else guide.tell(centre, turning, force, p, block.powers_alone, *report);
+            if constexpr (loaded && may_be_offset) {
+                if (is_offset) at.offset.tell(guide, centre, answer, turning, p, block.powers_alone, *report);
+            }
+            if (!is_offset) guide.tell(centre, turning, force, p, block.powers_alone, *report);
             if constexpr (loaded) loads.tell(drive, *report);
         }
         return faults;

@@ -82,11 +82,15 @@ template <class Guide> struct RigidGuide {
         }
         PointMotion<Real> centre{{at.x, s[0], s[1]}, at.velocity.linear, {}};
         typename OffsetSlider<Real>::Answer answer;
-        if (pin.is_offset()) {
-            answer = pin.offset.answer(guide, on.force, to_slider(at.motion.axes, on.torque), at.turning, p);
-            centre.acceleration = answer.hole;
-            at.turning.put_rates(answer.spin_up, rates);
-        } else {
+        bool const moved = may_be_offset && pin.is_offset();
+        if constexpr (may_be_offset) {
+            if (moved) {
+                answer = pin.offset.answer(guide, on.force, to_slider(at.motion.axes, on.torque), at.turning, p);
+                centre.acceleration = answer.hole;
+                at.turning.put_rates(answer.spin_up, rates);
+            }
+        }
+        if (!moved) {
             centre.acceleration = guide.accelerations(on.force, p);
             at.turning.put_rates(on.torque, at.motion.axes, p.inertia, p.inverse_inertia, rates);
         }
@@ -97,8 +101,10 @@ template <class Guide> struct RigidGuide {
         guide.put_rates(centre.acceleration, rates);
         rates[9] = select(on.jammed, Real(not_a_number), rates[9]);
         if constexpr (Full) {
-            if (pin.is_offset()) pin.offset.tell(guide, centre, answer, at.turning, p, false, *report);
-            else guide.tell(centre, at.turning, on.force, p, false, *report);
+            if constexpr (may_be_offset) {
+                if (moved) pin.offset.tell(guide, centre, answer, at.turning, p, false, *report);
+            }
+            if (!moved) guide.tell(centre, at.turning, on.force, p, false, *report);
             loads.tell(block.drive, *report);
         }
         faults.contact_domain = on.jammed;

@@ -84,6 +84,7 @@ def test_few_members_decide_nothing(program: str, tmp_path: Path, job: ModuleTyp
             assert low <= sides.min() < (low + high) / 2 < sides.max() <= high, fit
 
 
+@pytest.mark.slow
 def test_enough_members_name_the_cheapest_fit(program: str, tmp_path: Path) -> None:
     code, rows, last = run(tmp_path, "--members", "3700", "--fits", "H8/f7", "H8/e8")
     assert (code, last) == (0, "H8/f7 is the cheapest fit with a yield of 99.9 %, at a cost of 1.25.")

@@ -38,8 +38,8 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 18'960u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'145u);
+    EXPECT_LE(Layer("kernels").lines(), 18'980u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'160u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'660u);
     EXPECT_LE(Layer("host").lines(), 31'480u);
     EXPECT_LE(Layer("host/store").lines(), 4'560u);

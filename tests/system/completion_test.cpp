@@ -57,7 +57,8 @@ TEST_F(Completion, OfBashKnowsCommandsOptionsAndValues) {
 TEST_F(Completion, OfBashKnowsKeysAndTheirChoices) {
     if (!is_there("bash")) GTEST_SKIP() << "bash is not installed";
     written({"--completion", "bash"}, "s.bash");
-    EXPECT_EQ(in_bash({"slideway", "run", "--set", "joint.clearance"}), "joint.clearance=\njoint.clearance_y=\njoint.clearance_z=\n");
+    EXPECT_EQ(in_bash({"slideway", "run", "--set", "joint.clearance"}), "joint.clearance=\njoint.clearance_y=\njoint.clearance_y_minus=\njoint.clearance_y_plus=\njoint.clearance_z=\n"
+                                                                           "joint.clearance_z_minus=\njoint.clearance_z_plus=\n");
     EXPECT_EQ(in_bash({"slideway", "run", "--set", "contact.law", "="}), "conservative\nfoundation\nkelvin_voigt\npaper\nrigid\n");
     EXPECT_EQ(in_bash({"slideway", "run", "--set", "contact.law", "=", "k"}), "kelvin_voigt\n");
     EXPECT_EQ(in_bash({"slideway", "run", "--set", "contact.law=k"}), "contact.law=kelvin_voigt\n") << "where = breaks no words";

@@ -83,7 +83,7 @@ TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
     EXPECT_EQ(parts("kind = \"carriage\""),
               "parts in     carriage mechanism; foundation law; no damping\n"
               "parts out    paper law; conservative law; kelvin_voigt law; rigid contact; damping of surface contacts; restitution; friction; "
-              "pose of a misaligned way; time series");
+              "pose of a misaligned way; offset of mass centre and pin; time series");
     EXPECT_EQ(parts("kind = \"planar_slider_crank\"\n[drive]\nkind = \"free\"\n[contact]\nrestitution = 0.5"),
               "parts in     planar_slider_crank mechanism; contact of corners; no drive; restitution\n"
               "parts out    friction; time series");

@@ -116,6 +116,10 @@ TEST(RandomStates, VaryEveryParameter) {
                                    place_of(where.crank_section), place_of(where.rod_section), place_of(where.wall), place_of(where.density),
                                    place_of(where.drive_scale), place_of(where.profile_speed),  // DrivesAgainstOracle has them
                                    place_of(where.cross_inclination)};  // ElementsAgainstOracle draws it
+    // OffsetSlidersAgainstOracle draws these.
+    for (double const* offset : {&where.mass_center_x, &where.mass_center_y, &where.mass_center_z, &where.pin_x, &where.pin_y, &where.pin_z, &where.clearance_y_plus,
+                                 &where.clearance_y_minus, &where.clearance_z_plus, &where.clearance_z_minus})
+        other.insert(place_of(*offset));
     // No law of the tree has more than two numbers of its own, and no mechanism any.
     for (int i = 2; i < slideway::most_own_numbers; ++i) other.insert(place_of(where.*slideway::law_inputs[i]));
     for (auto const own : slideway::mechanism_inputs) other.insert(place_of(where.*own));
