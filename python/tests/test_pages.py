@@ -34,6 +34,7 @@ shorter = {{
     "end": ["study.members=16"],
     "shaken": ["study.members=16", "study.duration=0.2 s"],
     "leaning": ["study.members=16"],
+    "overhang": ["study.members=16"],
 }}
 line = sys.argv[1:]
 if line[0] == "run":
