@@ -28,13 +28,18 @@ def ideal(scene: Mapping[str, Any], variable: str, time: np.ndarray) -> np.ndarr
     """
     if variable in _on_axis:
         return np.zeros_like(time)
-    if any(value for key, value in scene.get("slider", {}).items() if key.startswith("pin_")):
+    if off_pin(scene):
         return None
     mechanism = scene["mechanism"]
     motion = _motions.get(str(mechanism["kind"]))
     if motion is None or variable not in ("x", "vx", "ax") or drive_kind(scene) != "speed":
         return None
     return motion(mechanism, time)[("x", "vx", "ax").index(variable)]
+
+
+def off_pin(scene: Mapping[str, Any]) -> bool:
+    """Whether the slider of a resolved scene is moved elsewhere than at its hole's centre."""
+    return any(value for key, value in scene.get("slider", {}).items() if key.startswith("pin_"))
 
 
 def drive_kind(scene: Mapping[str, Any]) -> str:

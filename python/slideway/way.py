@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from .ideal import drive_kind, ideal, rod_reach
+from .ideal import drive_kind, ideal, off_pin, rod_reach
 from .scenes import scene, varied
 
 Array = NDArray[np.float64]
@@ -58,11 +58,6 @@ def _middle(resolved: Mapping[str, Any]) -> Array:
     """From the way's axis to the middle between its faces, along its axes [m] (model.md 16)."""
     shifts = [(minus - plus) / 2 for plus, minus in (face_clearances(resolved.get("joint", {}), axis) for axis in ("y", "z"))]
     return np.nan_to_num(np.array([0.0, *shifts]))
-
-
-def off_pin(resolved: Mapping[str, Any]) -> bool:
-    """Whether the slider is moved elsewhere than at its hole's centre."""
-    return any(value for key, value in resolved.get("slider", {}).items() if key.startswith("pin_"))
 
 
 def misaligned(resolved: Mapping[str, Any]) -> bool:
