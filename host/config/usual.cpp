@@ -86,8 +86,10 @@ std::optional<std::pair<Key const*, std::string>> unusual_pair(Inputs const& inp
     Inputs const in = complete_inputs(inputs, info(parts.mechanism));
     bool const spatial = info(parts.mechanism).spatial;
     double const smallest = spatial ? std::min(in.way_width, in.way_depth) : std::min(in.slider_height, in.slider_length);
-    for (char const* const name : {"joint.clearance_y", "joint.clearance_z", "joint.clearance_y_plus", "joint.clearance_y_minus", "joint.clearance_z_plus", "joint.clearance_z_minus"}) {
-        Key const& key = *find_key(name);
+    static Key const* const clearances[] = {find_key("joint.clearance_y"),       find_key("joint.clearance_z"),      find_key("joint.clearance_y_plus"),
+                                            find_key("joint.clearance_y_minus"), find_key("joint.clearance_z_plus"), find_key("joint.clearance_z_minus")};
+    for (Key const* const one : clearances) {
+        Key const& key = *one;
         double const clearance = key.get(in);
         if (!counts_for(key, parts) || !(clearance > smallest / 10)) continue;
         return std::pair{&key, fmt::format("is {} (usually less than a tenth of the {}, {:.4g} m); is its unit right?", with_unit(clearance, key.unit),
