@@ -34,11 +34,15 @@ template <class Real> struct OffsetSlider {
         return o;
     }
 
-    /// The state as a guide sees it: y z vy vz are the pin's.
-    template <int size> SLIDEWAY_FN void put_pin(Real const* s, Real (&of_pin)[size]) const {
+    /// The state with y and z of the pin.
+    template <int size> SLIDEWAY_FN static void put_place(Real const* s, Vec3<Real> const& pin, Real (&of_pin)[size]) {
         for (int i = 0; i < size; ++i) of_pin[i] = s[i];
         of_pin[0] = s[0] + pin.y;
         of_pin[1] = s[1] + pin.z;
+    }
+    /// The state as a guide sees it: y z vy vz are the pin's.
+    template <int size> SLIDEWAY_FN void put_pin(Real const* s, Real (&of_pin)[size]) const {
+        put_place(s, pin, of_pin);
         of_pin[2] = s[2] + pin_velocity.y;
         of_pin[3] = s[3] + pin_velocity.z;
     }
@@ -146,9 +150,7 @@ SLIDEWAY_FN Real along_way(Real t, Real const* s, Axes<Real> const& lies, Slider
     if (!is_offset) return Guide::along(t, s, p, drive);
     auto const pin = from_slider(lies, p.pin);
     Real moved[Guide::Base::size];
-    for (int i = 0; i < Guide::Base::size; ++i) moved[i] = s[i];
-    moved[0] = s[0] + pin.y;
-    moved[1] = s[1] + pin.z;
+    OffsetSlider<Real>::put_place(s, pin, moved);
     return Guide::along(t, moved, p, drive) - pin.x;
 }
 
