@@ -21,6 +21,7 @@ template <class Laws> struct Conditions {
     bool powers_alone = false;    // reports tell the powers of the energy audit, and nothing else
     bool tells_forces = false;    // reports that tell more have the forces of faces and pins, too
     LoadList loads;
+    bool way_profile = false;  // there is one among the loads, or the way ends
     DrivePlan drive;
 
     constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)
@@ -32,6 +33,7 @@ template <class Laws> struct Conditions {
           remembers(remembers_of(parts)),
           continuous(of_law.continuous() && !remembers),
           loads(parts.loads),
+          way_profile(parts.loads.has(LoadKind::way_profile) || parts.loads.has(LoadKind::way_ends)),
           drive(parts.drive) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.

@@ -155,6 +155,14 @@ constexpr double mean_clearance_y(Inputs const& in) {
 constexpr double mean_clearance_z(Inputs const& in) {
     return 0.5 * (face_clearance(in.clearance_z_plus, in.clearance_z) + face_clearance(in.clearance_z_minus, in.clearance_z));
 }
+/// What movements in the joint are measured by [m]: its clearance, or with a preload by how far the slider is pressed into its way.
+constexpr double play(double clearance) {
+    constexpr double least = 1e-7;  // of a slider that just fits
+    double const size = clearance < 0 ? -clearance : clearance;
+    return size > least ? size : least;
+}
+constexpr double play_y(Inputs const& in) { return play(mean_clearance_y(in)); }
+constexpr double play_z(Inputs const& in) { return play(mean_clearance_z(in)); }
 /// From the way's axis to the middle between its faces [m]: a slider there has the mean clearance to both.
 constexpr double to_middle_y(Inputs const& in) {
     return 0.5 * (face_clearance(in.clearance_y_minus, in.clearance_y) - face_clearance(in.clearance_y_plus, in.clearance_y));

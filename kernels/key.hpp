@@ -12,7 +12,7 @@ enum class Rule {
     any,
     positive,         // > 0
     not_negative,     // >= 0
-    gap,              // > 0, the reason being the joint's clearance
+    gap,              // of the joint; < 0: a preload that is elastic
     unit_interval,    // [0, 1]
     poisson_ratio,    // (-1, 0.5]
     hertz_exponent,   // [1, 3]

@@ -41,7 +41,7 @@ Node read_document(std::string const& text, std::string const& path, Overrides c
 
 /// "study.section has no on (what crosses the section); write for example {…}", behind the node's position.
 [[noreturn]] void refuse_that(Node const& node, std::string_view fault, Problem const& problem);
-/// "joint.clearance is 0 m (the joint needs a gap); use a value > 0".
+/// "joint.clearance is -1 m (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm".
 [[noreturn]] void refuse(Node const& node, std::string_view shown, Problem const& problem);
 /// The same with the node's value shown as it was written.
 [[noreturn]] void refuse(Node const& node, Problem const& problem);

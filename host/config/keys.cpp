@@ -53,7 +53,7 @@ constexpr struct {
     {{}, "", ""},
     {{.low = 0, .low_included = false}, "the {} must be positive", "use a value > 0"},
     {{.low = 0}, "the {} must be zero or positive", "use a value >= 0"},
-    {{.low = 0, .low_included = false}, "the joint needs a gap", "use a value > 0"},
+    {{.low = -1e-4}, "a preload of more than 0.1 mm is not elastic", "use a value >= -0.1 mm"},
     {{0, 1}, "the {} must be in [0, 1]", "use a value from 0 to 1"},
     {{-1, 0.5, false}, "no isotropic solid has it", "use a value > -1 and <= 0.5"},
     {{1, 3}, "the {} must be in [1, 3]", "use a value from 1 to 3"},
@@ -253,6 +253,10 @@ namespace {
 /// How far off the way's axis a rod has to reach in a turn [m].
 double most_reach(Inputs const& in, Parts const& parts) { return in.crank_length + (parts.offset_slider ? std::hypot(in.pin_y, in.pin_z) : 0); }
 
+/// Rigid contacts, and the corners of a block in the plane: a preload is of faces that give way.
+bool needs_gap(Parts const& parts) { return parts.rigid || !info(parts.mechanism).spatial; }
+constexpr std::string_view no_gap = "without a gap contacts must give way, as the laws of mechanisms in space do", give_gap = "use a value > 0, or such a law";
+
 constexpr struct {
     std::string_view key, other;
     bool (*when)(Inputs const&, Parts const&);
@@ -261,6 +265,8 @@ constexpr struct {
     {"contact.restitution", "contact.law",
      [](Inputs const& in, Parts const& parts) { return parts.damping == Damping::restitution && !parts.rigid && in.restitution == 0; },
      "what gives way gives a part of the speed back; 0 is for rigid contacts", "use a value > 0, or contact.law = rigid"},
+    {"joint.clearance_y", "contact.law", [](Inputs const& in, Parts const& parts) { return needs_gap(parts) && !(mean_clearance_y(in) > 0); }, no_gap, give_gap},
+    {"joint.clearance_z", "contact.law", [](Inputs const& in, Parts const& parts) { return needs_gap(parts) && !(mean_clearance_z(in) > 0); }, no_gap, give_gap},
     {"mechanism.rod_length", "mechanism.crank_length",
      [](Inputs const& in, Parts const& parts) { return parts.drive.by != DriveBy::speed && in.rod_length <= most_reach(in, parts); },
      "the crank of {crank} m cannot turn fully", "use a rod longer than the crank"},

@@ -64,7 +64,7 @@ void require_part(Parts& parts, Key const& key);
 Inputs with_presets(Inputs inputs, Law law);
 Inputs with_presets(Inputs inputs, Parts const& parts);
 
-/// Why a set of inputs cannot be used, in words ("joint.clearance_y is 0 m (the joint needs a gap); use a value > 0"),
+/// Why a set of inputs cannot be used, in words ("joint.clearance_y is -1 m (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm"),
 /// or nothing.  Checks every key's rule and those between keys of the mechanism (slip_speed > stick_speed …).
 std::optional<std::string> defect(Inputs const& inputs, Parts const& parts = {});
 

@@ -53,6 +53,11 @@ constexpr LoadNumber numbers[] = {
     {ground_motion, "scale_x", "1", "what the ground's acceleration along X is multiplied by", at<&Load::force, 0>, any, 1},
     {ground_motion, "scale_y", "1", "what the ground's acceleration along Y is multiplied by", at<&Load::force, 1>, any, 1},
     {ground_motion, "scale_z", "1", "what the ground's acceleration along Z is multiplied by", at<&Load::force, 2>, any, 1, false},
+
+    {way_profile, "scale", "1", "what the depth of the table is multiplied by", at<&Load::scale>, not_negative, 1, false},
+
+    {way_ends, "from", "m", "x at which the way begins", at<&Load::from>, any, 0, false},
+    {way_ends, "to", "m", "x at which the way ends", at<&Load::to>, any, 0, false},
 };
 
 using Type = Setting::Type;
@@ -65,6 +70,8 @@ constexpr Setting rows_above[] = {
     {.name = "spring.<name>.along", .type = Type::choice, .unit = "",
      .meaning = "line: from the anchor to the slider's point; x: along X alone, its length being x of the point less anchor_x", .preset = "line",
      .choices = spring_directions},
+    {.name = "way_profile.<name>.faces", .type = Type::choice, .unit = "", .meaning = "faces of the way that the profile is of", .preset = "all",
+     .choices = profiled_faces},
     {.name = "stop.<name>.blocks", .type = Type::choice, .unit = "", .meaning = "which way the slider cannot go on", .preset = "-", .choices = stop_sides},
 };
 constexpr Setting rows_below[] = {
@@ -78,6 +85,13 @@ constexpr Setting rows_below[] = {
      .choices = interpolation_names},
     {.name = "load.<name>.repeats", .type = Type::truth, .unit = "",
      .meaning = "whether the table begins anew behind its last row; else the load stays as it is there", .preset = "true over crank_angle, else false"},
+    {.name = "way_profile.<name>.table", .type = Type::text, .unit = "",
+     .meaning = "file of a table, beside the scene: a column x, and one that says how far the face lies back there", .preset = "-"},
+    {.name = "way_profile.<name>.column", .type = Type::text, .unit = "", .meaning = "the table's column of depths", .preset = "-"},
+    {.name = "way_profile.<name>.interpolation", .type = Type::choice, .unit = "", .meaning = "how the face runs between the rows of the table",
+     .preset = "spline", .choices = smooth_interpolation_names},
+    {.name = "way_profile.<name>.repeats", .type = Type::truth, .unit = "",
+     .meaning = "whether the table begins anew behind its last row; else the face stays as it is there", .preset = "false"},
     {.name = "ground_motion.table", .type = Type::text, .unit = "",
      .meaning = "file of a table, beside the scene: columns time and one or more of ax, ay, az, the ground's acceleration", .preset = "-"},
     {.name = "ground_motion.interpolation", .type = Type::choice, .unit = "", .meaning = "how the acceleration runs between the rows of the table",
@@ -110,7 +124,7 @@ std::span<Setting const> load_settings() {
             for (LoadNumber const& number : numbers) {
                 if (table_of(number.kind) != table) continue;
                 names.push_back(prefix_of(table) + std::string(number.name));
-                bool const asked = number.rule == positive || number.name == "position";
+                bool const asked = number.rule == positive || number.name == "position" || number.kind == way_ends;
                 all.push_back({.name = names.back(), .type = Type::number, .unit = number.unit, .meaning = number.meaning,
                                .preset = asked ? "-" : number.preset == 1 ? "1" : "0", .range = range_of(number.rule)});
             }

@@ -1,5 +1,5 @@
 // [load.<name>], [spring.<name>], [stop.<name>] and [ground_motion]: what acts on a mechanism beside its weight, its contacts and its drive
-// (docs/model.md 14).
+// (docs/model.md 14).  And [way_profile.<name>] and [way_ends]: how the faces of its way run, and how far (docs/model.md 18).
 #pragma once
 
 #include <deque>
@@ -19,10 +19,10 @@ struct Node;
 struct Reading;
 struct Setting;
 
-/// Tables of loads in a scene, in the order of LoadKind.  Of all but the last a scene has as many as it names.
-inline constexpr std::string_view load_tables[] = {"load", "spring", "stop", "ground_motion"};
+/// Tables of loads in a scene, in the order of LoadKind.  Of all but the motion of the ground and the way's ends a scene has as many as it names.
+inline constexpr std::string_view load_tables[] = {"load", "spring", "stop", "ground_motion", "way_profile", "way_ends"};
 constexpr std::string_view table_of(LoadKind kind) { return load_tables[static_cast<int>(kind)]; }
-constexpr bool has_named_loads(std::string_view table) { return table == "load" || table == "spring" || table == "stop"; }
+constexpr bool has_named_loads(std::string_view table) { return table == "load" || table == "spring" || table == "stop" || table == "way_profile"; }
 
 /// A number that a load may have: load.<name>.force_x …
 struct LoadNumber {
@@ -41,6 +41,9 @@ LoadNumber const* find_load_number(LoadKind kind, std::string_view name);
 std::span<Setting const> load_settings();
 
 inline constexpr std::string_view load_bodies[] = {"slider", "crank"}, load_frames[] = {"ground", "slider"};
+/// Which faces of a way have a profile, and bits of them as in Load::faces.
+inline constexpr std::string_view profiled_faces[] = {"all", "y", "z", "y_plus", "y_minus", "z_plus", "z_minus"};
+inline constexpr int profiled_face_bits[] = {0b1111, 0b0011, 0b1100, 0b0001, 0b0010, 0b0100, 0b1000};
 inline constexpr std::string_view spring_directions[] = {"line", "x"}, stop_sides[] = {"+x", "-x"};
 inline constexpr std::string_view load_arguments[] = {"crank_angle", "time", "x", "vx", "crank_speed"};  // in the order of LoadArgument, behind `nothing`
 
@@ -60,6 +63,7 @@ struct TableKind {
     bool repeats;
     Interpolation interpolation;
     bool advances = false;  // where it repeats, it need not close
+    bool opens = false;     // its values are not negative
 };
 /// Of a file beside a scene.  @param file names it  @param asking for the column  @throws SceneError
 LoadTable read_table_of(Reading& reading, Node const& file, Node const& asking, std::string const& column, TableKind const& kind);

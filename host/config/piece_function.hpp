@@ -16,7 +16,7 @@ namespace slideway {
 ///   monotone  cubic pieces that rise and fall as the points do; slopes are the weighted harmonic means of Fritsch & Butland 1984
 ///   linear    straight, with kinks at the points
 enum class Interpolation { spline, monotone, linear };
-inline constexpr std::string_view interpolation_names[] = {"spline", "monotone", "linear"};
+inline constexpr std::string_view interpolation_names[] = {"spline", "monotone", "linear"}, smooth_interpolation_names[] = {"spline", "monotone"};
 
 /// What is wrong with points, and at which of them.
 struct PointFault {

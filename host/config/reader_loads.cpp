@@ -1,4 +1,4 @@
-// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion]: forces and torques, constant, by a table, or by where the slider is.
+// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion]: forces and torques, constant, by a table, or by where the slider is.  And [way_profile.<name>], [way_ends].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace {
 
 /// Units of what a table is read over, in the order of load_arguments, and those that its values may come to.
 constexpr std::string_view argument_units[] = {"rad", "s", "m", "m/s", "rad/s"}, value_units[] = {"1", "N", "N m", "Pa", "N/m", "N s/m", "m/s2"};
-constexpr std::string_view acceleration_units[] = {"m/s2"};
+constexpr std::string_view acceleration_units[] = {"m/s2"}, depth_units[] = {"m"};
 
 /// How numbers of a column become SI ones.
 UnitFactor si_factor(Node const& header, std::span<std::string_view const> units) {
@@ -111,6 +111,10 @@ LoadTable read_table_of(Reading& reading, Node const& file, Node const& asking, 
                                      fault->reason, fault->advice));
     }
     check_turns(columns, input.name, kind);
+    auto const proud = std::ranges::find_if(columns.values, [&](double value) { return kind.opens && value < 0; });
+    if (proud != columns.values.end())
+        throw SceneError(fmt::format("{}:{}: {} is {:g} m (a profile lies back from the clearance, and is not proud of it); give the clearance where the gap is narrowest, and "
+                                     "depths from there", input.name, columns.lines[static_cast<std::size_t>(proud - columns.values.begin())], table.column, *proud));
     if (kind.repeats && !kind.advances) columns.values.back() = columns.values.front();
     auto const function = std::make_shared<PieceFunction const>(columns.places, columns.values, kind.interpolation, kind.repeats);
     if (auto const steep = function->not_finite())
@@ -151,12 +155,21 @@ public:
             case LoadKind::spring: read_spring(); break;
             case LoadKind::stop: read_stop(); break;
             case LoadKind::ground_motion: return read_ground();
+            case LoadKind::way_profile: read_profile(); break;
+            case LoadKind::way_ends: read_ends(); break;
         }
         return {std::move(given_)};
     }
 
 private:
-    std::string noun() const { return kind_ == LoadKind::ground_motion ? "motion of the ground" : std::string(table_of(kind_)); }
+    std::string noun() const {
+        switch (kind_) {
+            case LoadKind::ground_motion: return "motion of the ground";
+            case LoadKind::way_profile: return "profile of the way";
+            case LoadKind::way_ends: return "way with ends";
+            default: return std::string(table_of(kind_));
+        }
+    }
     bool is_planar() const { return !info(scene_.parts.mechanism).spatial; }
 
     std::size_t choice(std::string_view name, std::span<std::string_view const> of, std::size_t preset = 0) const {
@@ -214,6 +227,28 @@ private:
         require("blocks", "which way the slider cannot go on", "add blocks = \"+x\", or \"-x\"");
         require("stiffness", "how far the stop gives way", "add stiffness = \"1e7 N/m\"");
         given_.load.side = choice("blocks", stop_sides) == 0 ? 1 : -1;
+    }
+
+    void read_profile() {
+        given_.load.faces = profiled_face_bits[choice("faces", profiled_faces)];
+        require("table", "how far the faces lie back", "add table = \"wear.csv\", of a column x and one of depths");
+        require("column", "which column of the table says how far the faces lie back", "add column = \"depth\", or what it is called");
+        Node const& file = *node_.find("table");
+        given_.load.over = LoadArgument::x;
+        Node const* const repeats = node_.find("repeats");
+        given_.row.table.interpolation = static_cast<Interpolation>(choice("interpolation", smooth_interpolation_names));
+        given_.row.table.column = read_text_value(*node_.find("column"));
+        read_file(file, *node_.find("column"), argument_of_x, repeats != nullptr && read_boolean(*repeats), depth_units);
+        Node const* const scale = node_.find("scale");
+        double const steepest = given_.row.table.function->steepest() * (scale == nullptr ? 1 : read_number(*scale, "1"));
+        if (!(steepest <= steepest_profile))
+            refuse(file, {fmt::format("the profile has a slope of {:.3g}", steepest), fmt::format("contacts are reckoned with slopes up to {}; smooth the table, or check its units", steepest_profile)});
+    }
+
+    void read_ends() {
+        Node const *const from = node_.find("from"), *const to = node_.find("to");
+        if (from == nullptr && to == nullptr) refuse_missing(node_, node_.name + ".to", "where the way ends", "add to = 0.3, or from, where it begins");
+        if (from != nullptr && to != nullptr && !(read_number(*from, "m") < read_number(*to, "m"))) refuse(*to, {"the way ends where it begins, or before", "use a larger x than that of from"});
     }
 
     /// A load for each of the columns ax, ay, az that the table has.
@@ -285,7 +320,7 @@ private:
 
     /// @param asking for the column  @param over a place in load_arguments
     void read_file(Node const& file, Node const& asking, std::size_t over, bool repeats, std::span<std::string_view const> units) {
-        TableKind const kind{load_arguments[over], argument_units[over], units, repeats, given_.row.table.interpolation};
+        TableKind const kind{load_arguments[over], argument_units[over], units, repeats, given_.row.table.interpolation, false, kind_ == LoadKind::way_profile};
         LoadTable const* const same = former_table(file, kind);
         if (same == nullptr) {
             given_.row.table = read_table_of(reading_, file, asking, given_.row.table.column, kind);
@@ -308,8 +343,9 @@ private:
         return nullptr;
     }
 
-    static constexpr std::size_t argument_of_time = 1;
-    static_assert(load_arguments[argument_of_time] == "time");
+    static constexpr std::size_t argument_of_time = 1, argument_of_x = 2;
+    static_assert(load_arguments[argument_of_time] == "time" && load_arguments[argument_of_x] == "x");
+    static constexpr double steepest_profile = 0.05;  // beyond it the slip is not along the way any more (model.md 18)
 
     Node const& node_;
     LoadKind const kind_;
@@ -326,7 +362,7 @@ std::vector<GivenLoad> given_loads(Reading& reading) {
         for (GivenLoad& load : LoadReader(node, kind, reading).read()) all.push_back(std::move(load));
     };
     MechanismInfo const& mechanism = info(reading.scene.parts.mechanism);
-    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion}) {
+    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion, LoadKind::way_profile, LoadKind::way_ends}) {
         Node const* const table = reading.given(table_of(kind));
         if (table == nullptr) continue;
         if (module_of(reading.scene.parts.mechanism) != nullptr) {

@@ -152,7 +152,7 @@ std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs
     double const radius = cranks ? inputs.crank_length : inputs.stroke / 2;
     constexpr double of_clearance = 1e-6;
     double const per_turn = 2 * std::numbers::pi * std::numeric_limits<double>::epsilon() * radius;
-    double const most = of_clearance * mean_clearance_y(inputs) / per_turn, turns = seconds / turn;
+    double const most = of_clearance * play_y(inputs) / per_turn, turns = seconds / turn;
     if (!(turns > most)) return {};
     return Problem{fmt::format("after {:.3g} {} the last bit of a number of double precision moves the drive by {:.2g} of the clearance", turns,
                                cranks ? "revolutions" : "cycles", of_clearance * turns / most),

@@ -26,8 +26,8 @@ bool is_written(Key const& key, Scene const& scene) {
     bool const restitution = parts.damping == Damping::restitution;
     // A scene with all of its faces does not say what is the same of both.
     Inputs const& in = scene.inputs;
-    if (key.member == &Inputs::clearance_y && in.clearance_y_plus > 0 && in.clearance_y_minus > 0) return false;
-    if (key.member == &Inputs::clearance_z && in.clearance_z_plus > 0 && in.clearance_z_minus > 0) return false;
+    if (key.member == &Inputs::clearance_y && !std::isnan(in.clearance_y_plus + in.clearance_y_minus)) return false;
+    if (key.member == &Inputs::clearance_z && !std::isnan(in.clearance_z_plus + in.clearance_z_minus)) return false;
     if (lays_way(key)) return parts.misaligned_way;
     if (is_of_body(key)) return parts.offset_slider;
     if (key.name == "contact.restitution") return restitution;
@@ -89,15 +89,20 @@ std::string load_choices(Load const& load) {
                    (on_crank ? std::string() : fmt::format("frame = \"{}\"\n", load_frames[load.turns_with_slider ? 1 : 0]));
         case LoadKind::spring: return fmt::format("along = \"{}\"\n", spring_directions[load.along ? 1 : 0]);
         case LoadKind::stop: return fmt::format("blocks = \"{}\"\n", stop_sides[load.side > 0 ? 0 : 1]);
-        case LoadKind::ground_motion: break;
+        case LoadKind::way_profile: {
+            auto const named = std::ranges::find(profiled_face_bits, load.faces) - std::begin(profiled_face_bits);
+            return fmt::format("faces = \"{}\"\n", profiled_faces[named]);
+        }
+        case LoadKind::ground_motion:
+        case LoadKind::way_ends: break;
     }
     return {};
 }
 
 std::string load_file(TableFile const& file, LoadTable const& table, Load const& load) {
     std::string text = fmt::format("table = {}\n", file_text(file.path, table.rows, file.checksum));
-    if (load.kind == LoadKind::push)
-        text += fmt::format("over = \"{}\"\ncolumn = {}\n", load_arguments[static_cast<int>(load.over) - 1], toml_string(table.column));
+    if (load.kind == LoadKind::push) text += fmt::format("over = \"{}\"\n", load_arguments[static_cast<int>(load.over) - 1]);
+    if (load.kind != LoadKind::ground_motion) text += fmt::format("column = {}\n", toml_string(table.column));
     return text + fmt::format("interpolation = \"{}\"\nrepeats = {}\n", interpolation_names[static_cast<int>(table.interpolation)], load.table.repeats);
 }
 

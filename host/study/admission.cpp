@@ -16,15 +16,16 @@ namespace {
 /// A member that is looked at, and what the kernels say of its start.
 struct Start {
     std::uint64_t member;
-    double clearance;  // the smaller one [m]
+    double play;                  // the smaller one [m]
+    double preload_y, preload_z;  // how deep a slider in the middle is [m]
     ProbeResult at;
 
     double depth() const {
         double deepest = 0;
-        for (int apex = 0; apex < 8; ++apex) deepest = std::max({deepest, at.penetration_y[apex], at.penetration_z[apex]});
+        for (int apex = 0; apex < 8; ++apex) deepest = std::max({deepest, at.penetration_y[apex] - preload_y, at.penetration_z[apex] - preload_z});
         return deepest;
     }
-    bool is_inside() const { return depth() > deepest_start * clearance; }
+    bool is_inside() const { return depth() > deepest_start * play; }
     bool is_nowhere() const { return at.status != Status::finished; }
 };
 
@@ -54,7 +55,8 @@ Look look_at(Scene const& scene, Isa isa) {
             auto problem = unresolved_drive(scene.parts, drawn, schedule.timing ? schedule.timing(drawn).end : schedule.end);
             if (problem) look.unresolved = {member, *std::move(problem)};
         }
-        starts.push_back({member, spatial ? std::min(mean_clearance_y(drawn), mean_clearance_z(drawn)) : drawn.clearance_y, {}});
+        double const y = mean_clearance_y(drawn), z = spatial ? mean_clearance_z(drawn) : y;
+        starts.push_back({member, std::min(play(y), play(z)), std::max(-y, 0.0), std::max(-z, 0.0), {}});
         inputs.push_back(drawn);
     }
     std::vector<ProbeResult> const results = probe(isa, scene.parts, inputs, std::vector<double>(inputs.size(), 0.0));

@@ -14,7 +14,7 @@ namespace {
 /// A smaller gap is crossed more often: from 0.5 to 0.05 mm the steps per second rise 1.6-fold (paper) to 6-fold (conservative).
 MemberCost predicted_cost(Mechanism mechanism) {
     if (!info(mechanism).spatial) return [](Inputs const& inputs) { return 1 / inputs.clearance_y; };
-    return [](Inputs const& inputs) { return 1 / std::min(mean_clearance_y(inputs), mean_clearance_z(inputs)); };
+    return [](Inputs const& inputs) { return 1 / std::min(play_y(inputs), play_z(inputs)); };
 }
 
 BlockRequest block_request(Scene const& scene) {

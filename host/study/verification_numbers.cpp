@@ -25,7 +25,7 @@ constexpr double of_rounding = 1e-9; // of what a fall through the clearance com
 /// What a number with this unit is on the scale of the joint: of a fall through its clearance.
 double natural_scale(std::string const& unit, Scene const& scene) {
     Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
-    double const clearance = std::max(mean_clearance_y(in), mean_clearance_z(in)), energy = fall_energy(scene);
+    double const clearance = std::max(play_y(in), play_z(in)), energy = fall_energy(scene);
     if (unit == "s") return orbit_schedule(scene).end;
     if (unit == "J") return energy;
     if (unit == "m") return clearance;
@@ -166,7 +166,7 @@ void follow_others(std::vector<CheckedNumber>& numbers, Comparison const& c) {
 
 double fall_energy(Scene const& scene) {
     Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
-    double const clearance = std::max(mean_clearance_y(in), mean_clearance_z(in)),
+    double const clearance = std::max(play_y(in), play_z(in)),
                  speed = clearance * std::max(1.0, std::abs(in.crank_speed));
     return in.slider_mass * (std::abs(in.gravity) * clearance + speed * speed);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/joint/way.hpp"
+#include "kernels/joint/way_profile.hpp"
 #include "kernels/laws/apex_order.hpp"
 #include "kernels/laws/contact.hpp"
 #include "kernels/laws/face.hpp"
@@ -23,22 +24,50 @@ template <class Real> struct ApexNumbers {
     Real base, middle, across, along;
 
     /// Of the four apices of the face on `side` (+1 or −1).
-    SLIDEWAY_FN Quad<Real> on(Real side) const {
-        Real const centre = fma(side, middle, base);
-        Real const sideways = side * across, forwards = side * along;
-        Real const front = centre + forwards, rear = centre - forwards;
-        return {front + sideways, front - sideways, rear - sideways, rear + sideways};
-    }
+    SLIDEWAY_FN Quad<Real> on(Real side) const { return quad(side, side * along); }
     /// The same in another order.
     template <bool all> SLIDEWAY_FN Quad<Real> on(Real side, ApexOrder<Real> const& order) const {
         return order.template around<all>(fma(side, middle, base), side * along, side * across);
     }
     /// Of one, by its signs.
-    SLIDEWAY_FN Real at(Real side, Real sign_along, Real sign_across) const {
-        return (fma(side, middle, base) + sign_along * (side * along)) + sign_across * (side * across);
-    }
+    SLIDEWAY_FN Real at(Real side, Real sign_along, Real sign_across) const { return one(side, side * along, sign_along, sign_across); }
     /// The largest of the four, bit for bit, since rounding keeps the order.
     SLIDEWAY_FN Real largest(Real side) const { return (fma(side, middle, base) + abs(along)) + abs(across); }
+
+protected:
+    /// @param forwards half of what those in front have more than those behind
+    SLIDEWAY_FN Quad<Real> quad(Real side, Real forwards) const {
+        Real const centre = fma(side, middle, base), sideways = side * across;
+        Real const front = centre + forwards, rear = centre - forwards;
+        return {front + sideways, front - sideways, rear - sideways, rear + sideways};
+    }
+    SLIDEWAY_FN Real one(Real side, Real forwards, Real sign_along, Real sign_across) const {
+        return (fma(side, middle, base) + sign_along * forwards) + sign_across * (side * across);
+    }
+};
+
+/// The same of faces of which one may open along the way as the other does: + s_x skew.
+template <class Real> struct TaperedNumbers : ApexNumbers<Real> {
+    Real skew;
+
+    SLIDEWAY_FN TaperedNumbers(ApexNumbers<Real> const& straight, Real of_skew) : ApexNumbers<Real>(straight), skew(of_skew) {}
+
+    SLIDEWAY_FN Quad<Real> on(Real side) const { return this->quad(side, forwards(side)); }
+    template <bool all> SLIDEWAY_FN Quad<Real> on(Real side, ApexOrder<Real> const& order) const {
+        return order.template around<all>(fma(side, this->middle, this->base), forwards(side), side * this->across);
+    }
+    SLIDEWAY_FN Real at(Real side, Real sign_along, Real sign_across) const { return this->one(side, forwards(side), sign_along, sign_across); }
+    SLIDEWAY_FN Real largest(Real side) const { return (fma(side, this->middle, this->base) + abs(forwards(side))) + abs(this->across); }
+
+    /// Less a number of the contact segment's ends.
+    SLIDEWAY_FN static TaperedNumbers less(ApexNumbers<Real> const& n, EndNumbers<Real> const& of) {
+        return {{n.base - of.base, n.middle - of.middle, n.across, n.along - of.along}, negated(of.skew)};
+    }
+    /// Nothing less.
+    SLIDEWAY_FN static TaperedNumbers straight(ApexNumbers<Real> const& n) { return {n, Real(0.0)}; }
+
+private:
+    SLIDEWAY_FN Real forwards(Real side) const { return fma(side, this->along, skew); }
 };
 
 /// Two opposite faces in the frame (x, main, across), `main` along their normal if the slider lies straight.
@@ -110,15 +139,25 @@ template <Axis axis> struct FacePair {
                                                JointGeometry<Real> const& g) {
         return frame(motion, g).rates(m, v);
     }
+    /// The same where the way may have a profile, or end.
     template <class Real>
-    SLIDEWAY_FN static FaceFrame<Real> frame(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
+    SLIDEWAY_FN static TaperedNumbers<Real> depths(ProfiledMotion<Real> const& motion, JointGeometry<Real> const& g) {
+        auto const n = frame(motion, g).depths();
+        return motion.is_profiled ? TaperedNumbers<Real>::less(n, motion.profile.depth[first_face / 2]) : TaperedNumbers<Real>::straight(n);
+    }
+    template <class Real>
+    SLIDEWAY_FN static TaperedNumbers<Real> rates(Vec3<Real> const& m, Vec3<Real> const& v, ProfiledMotion<Real> const& motion, JointGeometry<Real> const& g) {
+        auto const n = frame(motion, g).rates(m, v);
+        return motion.is_profiled ? TaperedNumbers<Real>::less(n, motion.profile.rate[first_face / 2]) : TaperedNumbers<Real>::straight(n);
+    }
+    template <class Motion, class Real> SLIDEWAY_FN static FaceFrame<Real> frame(Motion const& motion, JointGeometry<Real> const& g) {
         return {normal(motion),
                 is_y ? motion.axes.y_shortfall : motion.axes.z_shortfall,
                 main(motion),
                 across(motion),
                 half_main(g),
                 half_across(g),
-                g.half_length,
+                segment_half(motion, g.half_length),
                 is_y ? g.clearance_y : g.clearance_z};
     }
 

@@ -18,8 +18,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The contacts that a step within an impact holds.  A slider that rattles nearly always touches one face alone, with one or two apices: one
 /// pass takes of each lane a face that it touches, whichever of the four, with its apices in the order of what touches (ApexOrder).
 /// A pack of eight so works on two apices and an edge, where the passes of the Joint work on eight and eight.
-/// @tparam Full also fill the report
-template <class Real, class Laws, bool Full> class HeldContacts {
+/// @tparam Full also fill the report  @tparam Motion a JointMotion, or a ProfiledMotion
+template <class Real, class Laws, bool Full, class Motion> class HeldContacts {
 public:
     struct Result {
         Wrench<Real> wrench;
@@ -27,7 +27,7 @@ public:
         Real clock_rate;     // δ' of the pair whose depth is the clock's [m/s]
     };
     /// What they push.
-    SLIDEWAY_NOINLINE static Result wrench(JointMotion<Real> const& motion, ContactMemory<Real> const& memory, JointParameters<Real> const& p,
+    SLIDEWAY_NOINLINE static Result wrench(Motion const& motion, ContactMemory<Real> const& memory, JointParameters<Real> const& p,
                                            Conditions<Laws> const& block, ContactReport<Real>* report) {
         HeldContacts contacts(motion, memory, p, block, report);
         contacts.add();
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    SLIDEWAY_FN HeldContacts(JointMotion<Real> const& motion, ContactMemory<Real> const& memory, JointParameters<Real> const& p,
+    SLIDEWAY_FN HeldContacts(Motion const& motion, ContactMemory<Real> const& memory, JointParameters<Real> const& p,
                              Conditions<Laws> const& block, ContactReport<Real>* report)
         : motion_(motion), memory_(memory), p_(p), block_(block), report_(report) {
         Real const zero(0.0);
@@ -54,6 +54,7 @@ private:
     }
 
     using Face = HeldFace<Real>;
+    static constexpr bool may_have_profile = requires(Motion const& motion) { motion.profile; };
 
     SLIDEWAY_NOINLINE void add_face_of_four(Face const& face) { add_face<true>(face); }
 
@@ -86,8 +87,35 @@ private:
                 face.choose(motion_.z, motion_.y),
                 face.choose(g.half_width, g.half_depth),
                 face.choose(g.half_depth, g.half_width),
-                g.half_length,
+                segment_half(motion_, g.half_length),
                 face.choose(g.clearance_y, g.clearance_z)};
+    }
+
+    /// δ of the apices of a face, or δ', from those of a straight way.
+    SLIDEWAY_FN auto seen([[maybe_unused]] Face const& face, ApexNumbers<Real> const& n, [[maybe_unused]] EndNumbers<Real> (WayProfile<Real>::*less)[2]) const {
+        if constexpr (may_have_profile) {
+            return motion_.is_profiled ? TaperedNumbers<Real>::less(n, chosen(face, motion_.profile.*less)) : TaperedNumbers<Real>::straight(n);
+        } else {
+            return n;
+        }
+    }
+    SLIDEWAY_FN static EndNumbers<Real> chosen(Face const& face, EndNumbers<Real> const (&of)[2]) {
+        return {face.choose(of[0].base, of[1].base), face.choose(of[0].middle, of[1].middle), face.choose(of[0].along, of[1].along),
+                face.choose(of[0].skew, of[1].skew)};
+    }
+    /// Normal forces along a way whose gap opens, and the arm of their middle.
+    template <bool all> SLIDEWAY_FN void add_along_way(Face const& face, Real side, Vec3<Real> const& n, Quad<Real> const& normal, Wrench<Real>& push) const {
+        if (!motion_.is_profiled) return;
+        auto const sums = face.order.template sums<all>(normal);
+        Real const half(0.5);
+        push.force.x = chosen(face, motion_.profile.push).applied(side, half * (sums.all + sums.along), half * (sums.all - sums.along));
+        push.torque = push.torque + cross((side * sums.all) * shift(), n);
+    }
+    /// Of the contact segment's middle from the slider's centre, and the slider's velocity there.
+    SLIDEWAY_FN Vec3<Real> shift() const { return {segment_shift(motion_), Real(0.0), Real(0.0)}; }
+    SLIDEWAY_FN Vec3<Real> shifted(Vec3<Real> const& velocity, [[maybe_unused]] Vec3<Real> const& spin) const {
+        if constexpr (may_have_profile) return velocity + cross(spin, shift());
+        else return velocity;
     }
 
     /// @tparam all or none of its apices touches beside the first two
@@ -95,7 +123,7 @@ private:
         auto frame = frame_of(face);
         auto v = face.arranged(motion_.velocity), spin = face.arranged_axial(motion_.spin);
         Real const side = face.side();
-        auto depths = frame.depths(), rates = frame.rates(cross(spin, frame.normal), v);
+        auto depths = seen(face, frame.depths(), &WayProfile<Real>::depth), rates = seen(face, frame.rates(cross(spin, frame.normal), v), &WayProfile<Real>::rate);
         auto const& order = face.order;
         auto depth = depths.template on<all>(side, order), rate = rates.template on<all>(side, order);
         FaceMotion<Real> m;
@@ -112,7 +140,7 @@ private:
                                         negated(frame.across),
                                         frame.half_length,
                                         frame.half_across,
-                                        v,
+                                        shifted(v, spin),
                                         spin};
         Quad<Slip<Real>> slips;
         if (block_.friction) [[likely]] slips = StickSlipFriction::slips<all>(sliding, order, pressed(m.touching), p_.friction);
@@ -123,10 +151,12 @@ private:
             if (!block_.powers_alone) report_->add_one_face(face.number(), order.to_face(f.normal), m, f);
         }
         auto push = pushed<all>(frame, side, order, f.normal);
+        if constexpr (may_have_profile) add_along_way<all>(face, side, frame.normal, f.normal, push);
         if (block_.friction) [[likely]] {
             auto const friction = StickSlipFriction::load<all>(sliding, order, slips, f.normal);
             push.force = push.force + friction.force;
             push.torque = push.torque + friction.torque;
+            if constexpr (may_have_profile) push.torque = push.torque + cross(shift(), friction.force);
             if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
         }
         auto& w = result_.wrench;
@@ -153,7 +183,7 @@ private:
     /// The pair of the clock has its depth from there; its rate is what the clock goes by.  Pairs of its face that are as deep, to the last
     /// bit, move as one with it: a slider that lands flat stays flat.
     template <bool all>
-    SLIDEWAY_FN void set_clock(Face const& face, ApexNumbers<Real> const& depths, ApexNumbers<Real> const& rates, FaceMotion<Real>& m) {
+    SLIDEWAY_FN void set_clock(Face const& face, auto const& depths, auto const& rates, FaceMotion<Real>& m) {
         Real const side = face.side();
         Real const place = fnma(Real(4.0), face.number(), memory_.clock), plus(1.0), minus(-1.0);
         Mask<Real> const here = face.touching.a & (place > Real(-0.5)) & (place < Real(3.5));
@@ -197,7 +227,7 @@ private:
         return {{Real(0.0), net * n.y, net * n.z}, cross(arm, n)};
     }
 
-    JointMotion<Real> const& motion_;
+    Motion const& motion_;
     ContactMemory<Real> const& memory_;
     JointParameters<Real> const& p_;
     Conditions<Laws> const& block_;

@@ -18,10 +18,10 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The clearance joint: eight apices → sixteen penetrations → contact modes → forces → wrench on the slider.
 /// Source: Qian et al. 2020, 3.2; apices and faces as in its Table 2.
 /// @tparam Laws of the Conditions  @tparam Full also fill the report (penetrations, forces, modes, powers); the wrench has the same
-/// bits without
-template <class Real, class Laws, bool Full> class Joint {
+/// bits without  @tparam Motion a JointMotion, or a ProfiledMotion
+template <class Real, class Laws, bool Full, class Motion = JointMotion<Real>> class Joint {
 public:
-    SLIDEWAY_FN Joint(JointMotion<Real> const& motion, ContactMemory<Real> const& memory, JointParameters<Real> const& p,
+    SLIDEWAY_FN Joint(Motion const& motion, ContactMemory<Real> const& memory, JointParameters<Real> const& p,
                       Conditions<Laws> const& block, ContactReport<Real>* report)
         : motion_(motion), memory_(memory), p_(p), block_(block), report_(report) {}
 
@@ -37,7 +37,7 @@ public:
         if (block_.by_clocks && any(memory_.holding > Real(0.5))) {
             // Of a copy: what a function of its own sees stays in memory, and the faces below are to have it in registers.
             auto seen = motion_;
-            auto held = HeldContacts<Real, Laws, Full>::wrench(seen, memory_, p_, block_, report_);
+            auto held = HeldContacts<Real, Laws, Full, Motion>::wrench(seen, memory_, p_, block_, report_);
             clock_rate_ = held.clock_rate;
             outside = held.outside;
             w.force = w.force + held.wrench.force;
@@ -54,6 +54,8 @@ public:
     SLIDEWAY_FN Real clock_rate() const { return clock_rate_; }
 
 private:
+    static constexpr bool may_have_profile = requires(Motion const& motion) { motion.profile; };
+
     /// What all that is pushed on one pair of faces comes to, in their frame.
     struct Push {
         // Σ sF, Σ F, Σ s s_x F and Σ s s_across F: all that the wrench needs of eight forces along one normal.
@@ -115,20 +117,29 @@ private:
             auto f = loads(face, contact);
             outside = outside | f.outside;
             push.add(side, f.normal);
+            if constexpr (may_have_profile) push.force.x = push.force.x + motion_.push(Faces::first_face / 2, side, f.normal.a + f.normal.b, f.normal.c + f.normal.d);
             if constexpr (Full) {
                 report_->add_powers(face, f);
                 if (!block_.powers_alone) report_->add_face(Faces::first_face, is_plus, face, f);
             }
             auto const friction = friction_of<axis>({n, fms(side, Faces::half_main(p_.geometry), Faces::main(motion_)),
-                                                     negated(Faces::across(motion_)), p_.geometry.half_length,
-                                                     Faces::half_across(p_.geometry), v, spin},
+                                                     negated(Faces::across(motion_)), segment_half(motion_, p_.geometry.half_length),
+                                                     Faces::half_across(p_.geometry), shifted(v, spin), spin},
                                                     f.normal);
             push.force = push.force + friction.force;
             push.torque = push.torque + friction.torque;
+            if constexpr (may_have_profile) push.torque = push.torque + cross(shift(), friction.force);
             if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
             if (none(both)) [[likely]] break;
         }
         add_push<axis>(push, n, w);
+    }
+
+    /// Of the contact segment's middle from the slider's centre, and the slider's velocity there.
+    SLIDEWAY_FN Vec3<Real> shift() const { return {segment_shift(motion_), Real(0.0), Real(0.0)}; }
+    SLIDEWAY_FN Vec3<Real> shifted(Vec3<Real> const& velocity, [[maybe_unused]] Vec3<Real> const& spin) const {
+        if constexpr (may_have_profile) return velocity + cross(spin, shift());
+        else return velocity;
     }
 
     /// What the law says of a face.
@@ -140,7 +151,7 @@ private:
         }
     }
 
-    template <Axis axis> SLIDEWAY_FN Sides sides(ApexNumbers<Real> const& depths, bool holding) const {
+    template <Axis axis> SLIDEWAY_FN Sides sides(auto const& depths, bool holding) const {
         if (!holding) {
             Real const zero(0.0);
             return {depths.largest(Real(1.0)) > zero, depths.largest(Real(-1.0)) > zero};
@@ -199,14 +210,15 @@ private:
     template <Axis axis> SLIDEWAY_FN void add_push(Push const& push, Vec3<Real> const& n, Wrench<Real>& w) const {
         using Faces = FacePair<axis>;
         auto const& g = p_.geometry;
-        Vec3<Real> arm{g.half_length * push.along, fnma(Faces::main(motion_), push.net, Faces::half_main(g) * push.total),
+        Vec3<Real> arm{segment_half(motion_, g.half_length) * push.along, fnma(Faces::main(motion_), push.net, Faces::half_main(g) * push.total),
                        fnma(Faces::across(motion_), push.net, Faces::half_across(g) * push.across)};
+        if constexpr (may_have_profile) arm.x = fma(motion_.shift, push.net, arm.x);
         Vec3<Real> force{push.force.x, fma(push.net, n.y, push.force.y), fma(push.net, n.z, push.force.z)};
         w.force = w.force + Faces::arranged(force);
         w.torque = w.torque + Faces::arranged_axial(push.torque + cross(arm, n));
     }
 
-    JointMotion<Real> const& motion_;
+    Motion const& motion_;
     ContactMemory<Real> const& memory_;
     JointParameters<Real> const& p_;
     Conditions<Laws> const& block_;

@@ -24,7 +24,7 @@ template <class Real> struct JointForces {
     Vec3<Real> crank_pin;       // of the crank pin on the rod [N]
 
     /// Those of the joint; `contact` along the way's axes.  @param rubs there is friction
-    SLIDEWAY_FN void tell(JointMotion<Real> const& motion, ContactReport<Real> const& report, JointParameters<Real> const& p, bool rubs) {
+    SLIDEWAY_FN void tell(ProfiledMotion<Real> const& motion, ContactReport<Real> const& report, JointParameters<Real> const& p, bool rubs) {
         Real const zero(0.0);
         friction = contact = {zero, zero, zero};
         add_faces<Axis::y>(motion, report.normal_force, p, rubs);
@@ -48,11 +48,12 @@ template <class Real> struct JointForces {
 
 private:
     template <Axis axis>
-    SLIDEWAY_FN void add_faces(JointMotion<Real> const& motion, Quad<Real> const* normals, JointParameters<Real> const& p, bool rubs) {
+    SLIDEWAY_FN void add_faces(ProfiledMotion<Real> const& motion, Quad<Real> const* normals, JointParameters<Real> const& p, bool rubs) {
         using Faces = FacePair<axis>;
         Real const zero(0.0), one(1.0);
         auto const& g = p.geometry;
-        auto const n = Faces::normal(motion), v = Faces::arranged(motion.velocity), spin = Faces::arranged_axial(motion.spin);
+        auto const n = Faces::normal(motion), spin = Faces::arranged_axial(motion.spin);
+        auto const v = Faces::arranged(motion.velocity) + cross(spin, Vec3<Real>{motion.shift, zero, zero});
         Real const per_area = one / Faces::contact(p.contact).area;
         for (int i = Faces::first_face; i < Faces::first_face + 2; ++i) {
             Real const side(i == Faces::first_face ? 1.0 : -1.0);
@@ -62,14 +63,15 @@ private:
             Real const share = select(pushes, one / select(pushes, total, one), zero);
             force[i] = total;
             pressure[i] = total * per_area;
-            along[i] = g.half_length * (((f.a + f.b) - (f.c + f.d)) * share);
+            along[i] = fma(motion.half_length, ((f.a + f.b) - (f.c + f.d)) * share, select(pushes, motion.shift, zero));
             across[i] = Faces::half_across(g) * (((f.a + f.d) - (f.b + f.c)) * share);
-            SlidingFace<Real> const sliding{n, fms(side, Faces::half_main(g), Faces::main(motion)), negated(Faces::across(motion)), g.half_length,
+            SlidingFace<Real> const sliding{n, fms(side, Faces::half_main(g), Faces::main(motion)), negated(Faces::across(motion)), motion.half_length,
                                             Faces::half_across(g), v, spin};
             auto const slip = StickSlipFriction::velocities(sliding);
             Real const front = fma(f.a, sqrt(dot(slip.a, slip.a)), f.b * sqrt(dot(slip.b, slip.b)));
             pv[i] = per_area * fma(f.c, sqrt(dot(slip.c, slip.c)), fma(f.d, sqrt(dot(slip.d, slip.d)), front));
-            contact = contact + Faces::arranged(Vec3<Real>{zero, side * total * n.y, side * total * n.z});
+            Real const lengthwise = motion.push(Faces::first_face / 2, side, f.a + f.b, f.c + f.d);
+            contact = contact + Faces::arranged(Vec3<Real>{lengthwise, side * total * n.y, side * total * n.z});
             if (rubs) friction = friction + Faces::arranged(StickSlipFriction::load(sliding, f, p.friction).force);
         }
     }

@@ -17,7 +17,7 @@ template <class Real> SLIDEWAY_FN Real face_approach(Quad<Real> const& before, Q
     return max(max(way(before.a, after.a), way(before.b, after.b)), max(way(before.c, after.c), way(before.d, after.d)));
 }
 
-template <class Real> SLIDEWAY_FN Real axis_pattern(ApexNumbers<Real> const& depths) {
+template <class Real> SLIDEWAY_FN Real axis_pattern(auto const& depths) {
     Real const zero(0.0);
     auto const plus = depths.on(Real(1.0)), minus = depths.on(Real(-1.0));
     auto const bit = [&](Real p, Real m, double value) { return select(max(p, m) > zero, Real(value), zero); };
@@ -30,14 +30,14 @@ template <class Real> SLIDEWAY_FN Real axis_pattern(ApexNumbers<Real> const& dep
 /// What a state has the contact code do, as a number: bit i where the i-th apex of either Y face touches, bit 4 + i for the Z
 /// faces.  The two faces of an axis are worked on in one pass, so that their sides make no difference.
 template <class Real>
-SLIDEWAY_FN Real contact_pattern(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
-    return fma(Real(16.0), detail::axis_pattern(FacePair<Axis::z>::depths(motion, g)),
-               detail::axis_pattern(FacePair<Axis::y>::depths(motion, g)));
+SLIDEWAY_FN Real contact_pattern(ProfiledMotion<Real> const& motion, JointGeometry<Real> const& g) {
+    return fma(Real(16.0), detail::axis_pattern<Real>(FacePair<Axis::z>::depths(motion, g)),
+               detail::axis_pattern<Real>(FacePair<Axis::y>::depths(motion, g)));
 }
 
 /// Penetration of one apex in the Y or the Z face on its side [m].
-template <class Real>
-SLIDEWAY_FN Real penetration(JointMotion<Real> const& motion, JointGeometry<Real> const& g, Apex apex) {
+template <class Motion, class Real>
+SLIDEWAY_FN Real penetration(Motion const& motion, JointGeometry<Real> const& g, Apex apex) {
     auto const depths = apex.z_faces ? FacePair<Axis::z>::depths(motion, g) : FacePair<Axis::y>::depths(motion, g);
     int const first = apex.z_faces ? 2 : 0;
     for (int side = 0; side < 2; ++side) {
@@ -52,7 +52,7 @@ SLIDEWAY_FN Real penetration(JointMotion<Real> const& motion, JointGeometry<Real
 
 /// The longest way [m] that an apex made between two poses towards a face which it touches only in the second; 0 where none does.
 template <class Real>
-SLIDEWAY_FN Real longest_approach(JointMotion<Real> const& before, JointMotion<Real> const& after,
+SLIDEWAY_FN Real longest_approach(ProfiledMotion<Real> const& before, ProfiledMotion<Real> const& after,
                                   JointGeometry<Real> const& g) {
     auto const y0 = FacePair<Axis::y>::depths(before, g), y1 = FacePair<Axis::y>::depths(after, g);
     auto const z0 = FacePair<Axis::z>::depths(before, g), z1 = FacePair<Axis::z>::depths(after, g);

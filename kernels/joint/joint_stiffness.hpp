@@ -14,7 +14,7 @@ template <class Real> struct Translation { Real y, z; };
 
 /// The joint's pose and motion as its stiffness needs them.
 template <class Real> struct JointFrame {
-    JointMotion<Real> motion;              // as the joint's forces see it, in way coordinates
+    ProfiledMotion<Real> motion;           // as the joint's forces see it, in way coordinates
     Vec3<Real> velocity, spin;             // u' [m/s] and ω [rad/s] along the slider's axes
     Translation<Real> x, y, z;             // of unit forces along the slider's axes
     Translation<Real> y_normal, z_normal;  // the same without the force's component along the way's X
@@ -133,7 +133,7 @@ private:
         Vec3<Real> const z{m.axes.x.z, m.axes.y.z, m.axes.z.z};
         Face face;
         face.side = side;
-        face.lever_along = FacePair<axis>::arranged_axial(g.half_length * x);
+        face.lever_along = FacePair<axis>::arranged_axial(m.half_length * x);
         face.velocity = FacePair<axis>::arranged(frame_.velocity);
         face.spin = FacePair<axis>::arranged(frame_.spin);
         face.x = frame_.x;
@@ -148,6 +148,7 @@ private:
             face.normal = frame_.z_normal;
             face.z = frame_.y;
         }
+        if (m.is_profiled) face.lever = face.lever + FacePair<axis>::arranged_axial(m.shift * x);
         return face;
     }
 

@@ -10,6 +10,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> struct WayParameters {
     Vec3<Real> offset;   // u_l: the way's axis passes through it [m]
     Vec3<Real> x, y, z;  // columns of A_l
+    Real station;        // where it has its offset, along the mechanism's X [m]
 };
 
 /// Pose and motion of the slider as the joint sees it.

@@ -26,6 +26,8 @@ enum class LoadKind {
     spring,         // from a point of the slider to one of the ground, or along X alone
     stop,           // pushes the slider back from a place along X
     ground_motion,  // acceleration of the ground
+    way_profile,    // faces of the way that are not straight
+    way_ends,       // where the way begins and ends
 };
 
 /// Places are those of numbers among Inputs::load_a …; 0 where there is none.
@@ -53,6 +55,8 @@ struct Load {
     int dissipation = none;              // of a stop [s/m]: its stiffness times 1 + this times the speed of the approach
     bool along = false;                  // a spring that has its force along X alone, and its length
     double side = 1;                     // of a stop: it blocks the way to larger x; −1 to smaller
+    int faces = 0;                       // of a way's profile: bit i where face i has it, Y+, Y−, Z+, Z−
+    int from = none, to = none;          // of a way's ends: x of them [m]
 };
 
 inline constexpr int most_load_numbers = 16;  // of all loads of a scene
@@ -61,6 +65,12 @@ struct LoadList {
     Load const* loads = nullptr;  // [count]
     int count = 0;
 
+    constexpr bool has(LoadKind kind) const {
+        for (int i = 0; i < count; ++i) {
+            if (loads[i].kind == kind) return true;
+        }
+        return false;
+    }
     friend bool operator==(LoadList const&, LoadList const&) = default;
 };
 

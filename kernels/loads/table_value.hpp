@@ -43,16 +43,21 @@ SLIDEWAY_HD inline TablePoint table_point(PieceTable const& table, double at) {
     return {value, slope, fma(u, fma(12 * u, p.fourth, 6 * p.cube), 2 * p.square), fma(24 * u, p.fourth, 6 * p.cube)};
 }
 
-/// The values of a table in all lanes.  Lanes look theirs up one by one: pieces lie anywhere.
+/// The values of a table in all lanes, and its slopes.  Lanes look theirs up one by one: pieces lie anywhere.
+template <class Real> SLIDEWAY_HD void table_values(PieceTable const& table, Real const& at, Real& value, Real& slope) {
+    for (int i = 0; i < lanes<Real>; ++i) {
+        auto const point = table_point(table, lane(at, i));
+        set_lane(value, i, point.value);
+        set_lane(slope, i, point.slope);
+    }
+}
+
+/// The values alone.
 template <class Real> SLIDEWAY_HD Real table_value(PieceTable const& table, Real const& at) {
     if constexpr (is_tangent<Real>) {
         using Number = decltype(at.value);
         Number value = at.value, slope = at.value;
-        for (int i = 0; i < lanes<Number>; ++i) {
-            auto const point = table_point(table, lane(at.value, i));
-            set_lane(value, i, point.value);
-            set_lane(slope, i, point.slope);
-        }
+        table_values(table, at.value, value, slope);
         return {value, slope * at.slope};
     } else {
         Real value = at;

@@ -6,7 +6,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Why a state has no derivative.
 template <class Real> struct Faults {
-    Mask<Real> geometry;        // the rod does not reach
+    Mask<Real> geometry;        // the rod does not reach, or the slider has left its way
     Mask<Real> contact_domain;  // a line contact beyond its domain
 
     SLIDEWAY_FN static Faults none() { return of(mask_of<Real>(false), mask_of<Real>(false)); }

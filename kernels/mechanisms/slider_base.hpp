@@ -54,6 +54,7 @@ struct SliderBase {
 SLIDEWAY_HD inline SliderParameters<double> parameters_without_rod(Inputs const& in) {
     auto p = slider_parameters(in);
     p.joint.way.offset.x -= in.rod_length;
+    p.joint.way.station = 0;
     p.rod_mass = p.crank_moment = 0;
     return p;
 }
@@ -74,7 +75,7 @@ struct FreeSliderBase : SliderBase {
 
     SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
         auto p = parameters_without_rod(in);
-        p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(mean_clearance_y(in), mean_clearance_z(in))), 1.0);
+        p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(play_y(in), play_z(in))), 1.0);
         return p;
     }
 

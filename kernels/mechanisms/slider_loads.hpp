@@ -39,6 +39,7 @@ template <class Real> struct SliderLoads {
         auto sum = none();
         for (int i = 0; i < list.count; ++i) {
             Load const& load = list.loads[i];
+            if (load.kind == LoadKind::way_profile || load.kind == LoadKind::way_ends) continue;  // the joint has it
             LoadNumbers<Real> const numbers(load, p.load, arguments);
             if (load.kind == LoadKind::push) sum.add_push(load, numbers, velocity, turning);
             else if (load.kind == LoadKind::ground_motion) sum.add_ground(numbers.scaled(load.force), velocity, turning, arguments.crank_angle, p);

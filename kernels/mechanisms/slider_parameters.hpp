@@ -42,7 +42,7 @@ template <class Real> struct SliderParameters {
     Real rod_spin_mass;    // J/L² [kg]
     Real crank_moment;     // m_c r/2 [kg m]
     // scales of the error control
-    Real length_scale_y, length_scale_z;  // clearances [m]
+    Real length_scale_y, length_scale_z;  // clearances, or preloads [m]
     Real tilt_scale;                      // 2c/L_k [rad]
     Real rate_scale;                      // |ω|, of whatever repeats itself, at least 1 [1/s]
 };
@@ -81,7 +81,7 @@ SLIDEWAY_FN WayParameters<double> way_parameters(Inputs const& in) {
     auto const e = axes(attitude(in.way_roll, in.way_yaw, in.way_pitch));
     // The columns of A_l are the way's axes in the inertial frame.  Faces with clearances of their own lie about another middle.
     auto const middle = to_middle_y(in) * e.y + to_middle_z(in) * e.z;
-    return {Vec3<double>{in.rod_length, in.way_offset_y, in.way_offset_z} + middle, e.x, e.y, e.z};
+    return {Vec3<double>{in.rod_length, in.way_offset_y, in.way_offset_z} + middle, e.x, e.y, e.z, in.rod_length};
 }
 
 }  // namespace detail
@@ -116,8 +116,7 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     p.mass_center = {in.mass_center_x, in.mass_center_y, in.mass_center_z};
     p.pin = {in.pin_x, in.pin_y, in.pin_z};
 
-    double const clearance_y = mean_clearance_y(in), clearance_z = mean_clearance_z(in);
-    p.joint.geometry = {0.5 * in.slider_length, 0.5 * in.way_width, 0.5 * in.way_depth, clearance_y, clearance_z};
+    p.joint.geometry = {0.5 * in.slider_length, 0.5 * in.way_width, 0.5 * in.way_depth, mean_clearance_y(in), mean_clearance_z(in)};
     p.joint.way = detail::way_parameters(in);
 
     double const nu1 = in.slider_poisson_ratio, nu2 = in.way_poisson_ratio;
@@ -146,9 +145,9 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     p.rod_mass_center = center;
     p.rod_spin_mass = spin_mass;
     p.crank_moment = 0.5 * in.crank_mass * in.crank_length;
-    p.length_scale_y = clearance_y;
-    p.length_scale_z = clearance_z;
-    p.tilt_scale = 2 * min(clearance_y, clearance_z) / in.slider_length;
+    p.length_scale_y = play_y(in);
+    p.length_scale_z = play_z(in);
+    p.tilt_scale = 2 * min(p.length_scale_y, p.length_scale_z) / in.slider_length;
     p.rate_scale = drive_scale_rate(in);
     return p;
 }

@@ -61,7 +61,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         Vec3<Real> place{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
         at.leave_pin(place.x, velocity.x);
         JointFrame<Real> frame;
-        frame.motion = joint_motion(block.misaligned_way, slider, place, velocity, turning.spin, way);
+        frame.motion = motion_on_way(block, slider, place, velocity, turning.spin, p);
         frame.velocity = {dot(slider.x, velocity), dot(slider.y, velocity), dot(slider.z, velocity)};
         frame.spin = turning.omega;
         frame.x = guide.project(slider.x);
@@ -137,9 +137,13 @@ private:
         auto const& way = p.joint.way;
         Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
         if constexpr (loaded) at.leave_pin(position.x, velocity.x);
-        auto motion = joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
-        Joint<Real, Laws, Full> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
+        auto motion = [&] {
+            if constexpr (loaded) return motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
+            else return joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
+        }();
+        Joint<Real, Laws, Full, decltype(motion)> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
         auto wrench = joint.wrench(faults.contact_domain);
+        if constexpr (loaded) faults.geometry = faults.geometry | motion.has_left;
         auto force = to_inertial(block.misaligned_way, wrench.force, way);
         [[maybe_unused]] SliderLoads<Real> loads;
         if constexpr (loaded) {
@@ -180,12 +184,11 @@ private:
 
     /// Where the slider is in its joint; without its motion.
     template <class Real, class Laws>
-    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, Conditions<Laws> const& block) {
+    SLIDEWAY_FN static ProfiledMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, Conditions<Laws> const& block) {
         Real const zero(0.0);
         Vec3<Real> const still{zero, zero, zero};
         auto const lies = axes(attitude(s[4], s[5], s[6]));
-        return joint_motion(block.misaligned_way, lies,
-                            Vec3<Real>{along_way<Guide>(t, s, lies, p, block.drive, may_be_offset && block.offset_slider), s[0], s[1]}, still, still, p.joint.way);
+        return motion_on_way(block, lies, Vec3<Real>{along_way<Guide>(t, s, lies, p, block.drive, may_be_offset && block.offset_slider), s[0], s[1]}, still, still, p);
     }
 };
 

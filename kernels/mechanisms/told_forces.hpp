@@ -53,7 +53,7 @@ SLIDEWAY_NOINLINE void tell_forces(Real t, Real const* s, [[maybe_unused]] Real 
     auto const turning = SliderTurning<Real>::of(s);
     auto const& way = p.joint.way;
     Vec3<Real> const position{report.x, s[0], s[1]}, velocity{report.vx, s[2], s[3]};
-    auto const motion = joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
+    auto const motion = motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
     forces.tell(motion, report.contact, p.joint, block.friction);
     forces.contact = to_inertial(block.misaligned_way, forces.contact, way);
     forces.rod = forces.crank_pin = {zero, zero, zero};

@@ -35,7 +35,7 @@ def test_shipped_scenes_are_valid(validator: jsonschema.Draft7Validator, path: P
     "table, key, value",
     [
         ("joint", "clearence", 1e-4),
-        ("joint", "clearance", 0),
+        ("joint", "clearance", -1),
         ("joint", "clearance", "1 500 mm"),
         ("joint", "clearance", "0.1.5 mm"),
         ("joint", "clearance", "1+1 mm"),

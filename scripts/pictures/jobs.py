@@ -136,6 +136,21 @@ def leaning_way(root: Path) -> str:
     return as_svg(figure)
 
 
+def worn_way(root: Path) -> str:
+    """A worn face, and how the carriage on it leans along its way."""
+    figure, (above, below) = panels(2, height=4.2, sharex=True)
+    above.plot(*_table(root, "wear.csv").T, "o-", color=grey, ms=3.5, lw=1)
+    above.invert_yaxis()
+    frame(above, "", "depth of the face [µm]")
+    result = _job(root, "worn_way.toml", "way_profile.wear.scale", [0.5, 1.0, 1.5], 0.45, 901, ["pitch"])
+    for row, scale, colour in zip(result.pitch.values, result.way_profile_wear_scale.values, colours, strict=False):
+        below.plot(400 * result.time.values, 1e3 * row, color=colour, lw=1.4, label=f"{scale:g} of the depth")
+    below.set_xlim(0, 180)
+    below.legend(frameon=False)
+    frame(below, "place of the carriage on its way [mm]", "pitch [mrad]")
+    return as_svg(figure)
+
+
 def overhang(root: Path) -> str:
     """Where both ends of a guide with an overhanging tool lie in its gap, there and back."""
     half, upper, lower = 30.0, 20.0, 30.0  # of the guide's length [mm], clearances [um]
@@ -207,4 +222,4 @@ def fit(root: Path) -> str:
     return as_svg(figure)
 
 
-JOBS = {f"job_{make.__name__}": make for make in (pump, press, carriage, end_stops, shaken_spring, leaning_way, overhang, export, fit)}
+JOBS = {f"job_{make.__name__}": make for make in (pump, press, carriage, end_stops, shaken_spring, leaning_way, overhang, worn_way, export, fit)}

@@ -24,14 +24,27 @@ struct CostCase {
     std::size_t members = 8;
     Selection quantities = 0;
     Method method = Method::automatic;
+    Load const* load = nullptr;
 };
 
 constexpr Selection audit = Selection(1) << static_cast<int>(Quantity::energy_residual);
+
+// What comes to nothing has no other steps than the same scene without it: the difference is what it costs.
+constexpr PieceTable::Piece level[12] = {{0, 0, 0, 0, 0}, {0.5, 0, 0, 0, 0}, {1, 0, 0, 0, 0}, {1.5, 0, 0, 0, 0}, {2, 0, 0, 0, 0}, {2.5, 0, 0, 0, 0},
+                                         {3, 0, 0, 0, 0}, {3.5, 0, 0, 0, 0}, {4, 0, 0, 0, 0}, {4.5, 0, 0, 0, 0}, {5, 0, 0, 0, 0}, {5.5, 0, 0, 0, 0}};
+constexpr int first_pieces[12] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+constexpr PieceTable table(double low, double high, bool repeats) { return {level, 12, low, high, repeats, 0, first_pieces, 12, 12 / (high - low)}; }
+constexpr Load force{.name = "load.force", .force = {0, 1, 2}, .point = {3, 4, 5}};
+constexpr Load indicator{.name = "load.indicator", .force = {0, 1, 2}, .point = {3, 4, 5}, .over = LoadArgument::crank_angle, .table = table(0, 6, true)};
+constexpr Load profile{.name = "way_profile.level", .kind = LoadKind::way_profile, .over = LoadArgument::x, .table = table(0, 6, false), .faces = 15};
 
 constexpr CostCase cases[] = {
     {"paper", {Law::paper, Damping::point, true, false}, 1e-4, pi, 0, 0.01, 1e-6},
     {"conservative", {Law::conservative, Damping::point, true, false}, 1e-4, pi, 0, 0.01, 1e-6},
     {"rattling", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-6},
+    {"rattling_force", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-6, 8, 0, Method::automatic, &force},
+    {"rattling_table", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-6, 8, 0, Method::automatic, &indicator},
+    {"rattling_profile", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-6, 8, 0, Method::automatic, &profile},
     {"rattling_order_3", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-4},
     {"rattling_clocks", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-5, 8, audit, Method::verner65},
     {"settling", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 0.2, 1e-4, 2},
@@ -54,6 +67,7 @@ std::vector<Inputs> members_of(CostCase const& c) {
 void measure(Isa isa, CostCase const& c) {
     testing::RunOptions options;
     options.parts = c.parts;
+    if (c.load != nullptr) options.parts.loads = {c.load, 1};
     options.settings.end_time = c.end_time;
     options.settings.rtol = options.settings.atol = c.rtol;
     options.settings.method = c.method;

@@ -10,7 +10,7 @@ namespace oracle::detail {
 JointLoads joint_loads(Inputs const& in, Parts const& parts, SliderMotion const& slider, Pairs const* impact_speeds) {
     Matrix4 const way = pose_of_way(in, parts);
     JointLoads loads;
-    loads.pairs = pairs_of(in, slider, way, impact_speeds);
+    loads.pairs = pairs_of(in, parts, slider, way, impact_speeds);
     for (int f = 0; f < face_count; ++f) {
         FaceLoads face(in, parts, faces_of_way[f], loads.pairs[faces_of_way[f].axis]);
         face.detect();
@@ -25,14 +25,14 @@ JointLoads joint_loads(Inputs const& in, Parts const& parts, SliderMotion const&
         loads.potential += face.potential();
     }
 
-    // Way coordinates.  The way has no end, so a normal force does not push along it; its torque is complete.
+    // Way coordinates.  Along a straight way a normal force does not push, and along another as its face falls back; its torque is complete.
     Vector3 normal = Vector3::Zero(), friction = Vector3::Zero(), normal_torque = Vector3::Zero(),
             friction_torque = Vector3::Zero();
     for (int axis : {1, 2}) {
         for (Pair const& pair : loads.pairs[axis]) {
             if (!(pair.elastic > 0)) continue;  // a spring of the bed pushes apices that do not touch, too
             Vector3 const push = pair.side * pair.force * pair.normal;
-            normal += Vector3(0, push.y(), push.z());
+            normal += Vector3(pair.force * pair.opens + (pair.stays ? push.x() : Real(0)), push.y(), push.z());
             normal_torque += pair.arm.cross(push);
             loads.damping_loss += (pair.force - pair.elastic) * pair.rate;
             Real const speed = pair.slip.norm();

@@ -77,6 +77,30 @@ TableMotion table_motion(slideway::PieceTable const& table, Real at) {
     return motion;
 }
 
+TableMotion way_depth(Inputs const& in, Parts const& parts, int face, Real x) {
+    TableMotion sum;
+    for (int i = 0; i < parts.loads.count; ++i) {
+        slideway::Load const& load = parts.loads.loads[i];
+        if (load.kind != slideway::LoadKind::way_profile || (load.faces / (1 << face)) % 2 == 0) continue;
+        auto const number = [&](int index) { return Real(in.*slideway::load_inputs[index]); };
+        TableMotion const of = table_motion(load.table, x);
+        Real const scale = load.scale < 0 ? Real(1) : number(load.scale);
+        sum.value += scale * of.value;
+        sum.slope += scale * of.slope;
+    }
+    return sum;
+}
+
+Real way_place(Inputs const& in, Parts const& parts, Real x) {
+    for (int i = 0; i < parts.loads.count; ++i) {
+        slideway::Load const& load = parts.loads.loads[i];
+        if (load.kind != slideway::LoadKind::way_ends) continue;
+        if (load.from >= 0) x = std::max(x, Real(in.*slideway::load_inputs[load.from]));
+        if (load.to >= 0) x = std::min(x, Real(in.*slideway::load_inputs[load.to]));
+    }
+    return x;
+}
+
 LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, Matrix4 const& pose, Matrix4 const& pose_rate) {
     Number const number = [&](int index) { return index < 0 ? Real(0) : Real(in.*slideway::load_inputs[index]); };
     Triple const vector = [&](int const (&index)[3]) { return Vector3(number(index[0]), number(index[1]), number(index[2])); };
@@ -84,6 +108,7 @@ LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, M
     LoadSum sum;
     for (int i = 0; i < parts.loads.count; ++i) {
         slideway::Load const& load = parts.loads.loads[i];
+        if (load.kind == slideway::LoadKind::way_profile || load.kind == slideway::LoadKind::way_ends) continue;
         Real factor = load.scale < 0 ? Real(1) : number(load.scale);
         if (load.over != slideway::LoadArgument::nothing) factor *= table_motion(load.table, argument_of(load.over, place)).value;
         if (load.kind == slideway::LoadKind::ground_motion) {

@@ -23,6 +23,12 @@ struct LoadSum {
     Real potential = 0;                // of springs and stops [J]
     Real spring_loss = 0;              // what their dampers take [W]
 };
+/// How far a face of the way, 0: Y+, Y−, Z+, Z−, lies back at a place along it [m], and its slope.
+TableMotion way_depth(Inputs const& in, Parts const& parts, int face, Real x);
+
+/// The place on the way that is nearest.
+Real way_place(Inputs const& in, Parts const& parts, Real x);
+
 /// @param pose, pose_rate of the slider: 4 × 4 matrices
 LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, Matrix4 const& pose, Matrix4 const& pose_rate);
 

@@ -119,6 +119,7 @@ void report_joint(JointLoads const& joint, Result& result) {
         result.rate_y[i] = static_cast<double>(y.rate), result.rate_z[i] = static_cast<double>(z.rate);
         result.fn_y[i] = static_cast<double>(y.force), result.fn_z[i] = static_cast<double>(z.force);
         result.elastic_y[i] = static_cast<double>(y.elastic), result.elastic_z[i] = static_cast<double>(z.elastic);
+        result.ahead[i] = static_cast<double>(y.arm.x());
         result.slip_y[i] = static_cast<double>(y.slip.norm()), result.slip_z[i] = static_cast<double>(z.slip.norm());
     }
     result.contact_potential = static_cast<double>(joint.potential);
@@ -284,7 +285,7 @@ Pairs penetrations(Inputs const& in, Parts const& parts, double t, State const& 
     depths.fill(std::numeric_limits<double>::quiet_NaN());
     Placed const now = placed(in, parts, crank_motion(in, parts, t, state), t, state);
     if (!now.reached) return depths;
-    PairTable const pairs = pairs_of(in, now.slider, pose_of_way(in, parts), nullptr);
+    PairTable const pairs = pairs_of(in, parts, now.slider, pose_of_way(in, parts), nullptr);
     for (int axis : {1, 2})
         for (int i = 0; i < 8; ++i) depths[(axis - 1) * 8 + i] = static_cast<double>(pairs[axis][i].depth);
     return depths;

@@ -37,6 +37,7 @@ struct Result {
     std::array<double, 8> fn_y{}, fn_z{};            // normal force [N]
     std::array<double, 8> elastic_y{}, elastic_z{};  // its elastic part [N]
     std::array<double, 8> slip_y{}, slip_z{};        // |v_t| [m/s], of every pair, touching or not
+    std::array<double, 8> ahead{};                   // of the slider's centre, along the way [m]: P1 … P8
     int surfaces = 0, lines = 0, points = 0;
     std::array<FaceKind, face_count> faces{};
     double energy = 0;                    // E of section 8 [J], potentials included

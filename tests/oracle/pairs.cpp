@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loads.hpp"
 #include "poses.hpp"
 
 namespace oracle::detail {
@@ -13,7 +14,7 @@ Real const least_impact_speed = 1e-4;
 
 }  // namespace
 
-PairTable pairs_of(Inputs const& in, SliderMotion const& motion, Matrix4 const& way, Pairs const* impact_speeds) {
+PairTable pairs_of(Inputs const& in, Parts const& parts, SliderMotion const& motion, Matrix4 const& way, Pairs const* impact_speeds) {
     Matrix4 const from_inertial = inverse_of(way);
     Matrix4 const slider = from_inertial * motion.pose;
     Matrix4 const slider_rate = from_inertial * motion.pose_rate;
@@ -36,10 +37,13 @@ PairTable pairs_of(Inputs const& in, SliderMotion const& motion, Matrix4 const& 
     PairTable table;
     for (int i = 0; i < 8; ++i) {
         auto const [s1, s2, s3] = apices[i];
-        // The contact segment of the way runs along with the slider.
-        Vector4 const apex(centre.x() + s3 * Real(in.slider_length) / 2, middle[1] + s1 * Real(in.way_width) / 2,
+        // The contact segment of the way runs along with the slider, but not beyond the way's ends.
+        Real const along = centre.x() + s3 * Real(in.slider_length) / 2, place = along + way(0, 3), nearest = way_place(in, parts, place);
+        bool const stays = nearest != place;
+        Real const at = stays ? nearest - way(0, 3) : along;
+        Vector4 const apex(at, middle[1] + s1 * Real(in.way_width) / 2,
                            middle[2] + s2 * Real(in.way_depth) / 2, 1);
-        Vector4 const apex_rate(velocity.x(), 0, 0, 0);
+        Vector4 const apex_rate(stays ? Real(0) : velocity.x(), 0, 0, 0);
         Vector4 const in_slider = into_slider * apex;
         // R = T⁻¹ P  ⇒  R' = T⁻¹ (P' - T' R)
         Vector4 const in_slider_rate = into_slider * (apex_rate - slider_rate * in_slider);
@@ -50,6 +54,12 @@ PairTable pairs_of(Inputs const& in, SliderMotion const& motion, Matrix4 const& 
             pair.arm = apex.head<3>() - centre;
             pair.depth = pair.side * in_slider[axis] - half_hole[axis];
             pair.rate = pair.side * in_slider_rate[axis];
+            // The face lies back there; apex and arm stay those of a straight one.
+            TableMotion const back = way_depth(in, parts, 2 * (axis - 1) + (pair.side > 0 ? 0 : 1), nearest);
+            pair.stays = stays;
+            pair.opens = stays ? Real(0) : back.slope;
+            pair.depth -= back.value;
+            pair.rate -= pair.opens * velocity.x();
             Vector3 const sliding = velocity + angular_velocity.cross(pair.arm);
             pair.slip = sliding - sliding.dot(pair.normal) * pair.normal;
             Real const remembered = impact_speeds ? (*impact_speeds)[(axis - 1) * 8 + i] : 0.0;

@@ -37,6 +37,8 @@ struct Pair {
     Vector3 arm;     // ρ, from the slider's centre
     Real depth = 0;  // δ
     Real rate = 0;   // δ'
+    Real opens = 0;  // h' of the way's face there
+    bool stays = false;  // the apex is at the way's end, and does not run along with the slider
     Vector3 slip;    // v_t
     Real impact_speed = 0;
     Real elastic = 0, force = 0;
@@ -45,6 +47,6 @@ using PairTable = std::array<std::array<Pair, 8>, 3>;  // [axis 1 or 2][apex]
 
 /// Depths, rates and slips; no forces yet.  @param impact_speeds v0 [m/s], the start value 1e-4 where null; never
 /// taken below it.
-PairTable pairs_of(Inputs const& in, SliderMotion const& motion, Matrix4 const& way, Pairs const* impact_speeds);
+PairTable pairs_of(Inputs const& in, Parts const& parts, SliderMotion const& motion, Matrix4 const& way, Pairs const* impact_speeds);
 
 }  // namespace oracle::detail

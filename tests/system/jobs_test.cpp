@@ -33,8 +33,9 @@ public:
     Job(Job const&) = delete;
     Job& operator=(Job const&) = delete;
 
+    std::vector<double> values(std::string const& name) const { return ResultReader((folder_ / "job.nc").string()).values(name); }
     double mean(std::string const& name) const {
-        auto const values = ResultReader((folder_ / "job.nc").string()).values(name);
+        auto const values = this->values(name);
         return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     }
 
@@ -196,6 +197,18 @@ TEST(Jobs, OverhangPressesItsEdgesAsItsMomentsSay) {
     Job const end("overhang.toml", until("0.5")), middle("overhang.toml", until("0.42"));
     double const back = mass * weight * (overhang + h * mu) / (l + pin * mu);
     EXPECT_NEAR(end.mean("friction_loss") - middle.mean("friction_loss"), mu * back * 0.2 * 0.08, 3e-3 * mu * back * 0.2 * 0.08);
+}
+
+TEST(Jobs, WornWayLeansTheCarriageAsItsDepthsSay) {
+    // Of h = d/2 (1 − cos k x) the slider's ends lie d sin(k L/2) apart at most; at constant speed friction has μ M g.
+    Job const job("worn_way.toml", "--set study.members=2 --set study.verify=0 --set study.duration=0.44 --set 'study.vary={\"way_profile.wear.scale\"={dist=\"const\",value=1}}'");
+    double const pi = std::numbers::pi, length = 0.06, k = 2 * pi / 0.24, pitch = 30e-6 * std::sin(0.5 * k * length) / length;
+    auto const tilt = job.values("peak_tilt");  // roll, yaw, pitch of each member
+    ASSERT_EQ(tilt.size(), 6u);
+    for (std::size_t const of : {2u, 5u}) EXPECT_NEAR(tilt[of], pitch, 0.02 * pitch);
+    double const rub = 0.1 * 1.5 * weight;
+    EXPECT_NEAR(job.mean("friction_loss"), rub * 0.4 * 0.44, 0.01 * rub * 0.4 * 0.44);
+    EXPECT_NEAR(job.mean("crank_work"), job.mean("friction_loss") + job.mean("damping_loss") + job.mean("energy_change"), 1e-4 * job.mean("crank_work"));
 }
 
 TEST(Jobs, LeaningWayPressesOnTwoFaces) {

@@ -29,7 +29,7 @@ struct Poison {
 Poison const poisons[] = {
     {"a velocity that is no number", [](Inputs& in) { in.vy = std::numeric_limits<double>::quiet_NaN(); },
      Status::invalid_inputs},
-    {"a clearance below nought", [](Inputs& in) { in.clearance_y = -1e-4; }, Status::invalid_inputs},
+    {"a preload beyond what is elastic", [](Inputs& in) { in.clearance_y = -1e-3; }, Status::invalid_inputs},
     {"a state that is no number", [](Inputs& in) { in.z = std::numeric_limits<double>::quiet_NaN(); },
      Status::nonfinite, false},
     {"a mass that is infinite", [](Inputs& in) { in.slider_mass = std::numeric_limits<double>::infinity(); },

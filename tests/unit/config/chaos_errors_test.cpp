@@ -155,7 +155,7 @@ TEST(SceneChaosErrors, SweptValues) {
     auto const values = [](std::string const& text) {
         return error("sweep", "parameter = \"joint.clearance\"\nvalues = " + text);
     };
-    EXPECT_EQ(values("[1e-4,\n0]"), "scene.toml:6: study.values is 0 m (the joint needs a gap); use a value > 0");
+    EXPECT_EQ(values("[1e-4,\n-1]"), "scene.toml:6: study.values is -1 m (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm");
     EXPECT_EQ(values("[\"1 kg\"]"),
               "scene.toml:5: study.values is \"1 kg\" (the unit \"kg\" does not convert to m); "
               "use a unit like m or mm");

@@ -148,8 +148,8 @@ TEST(SceneErrors, Distributions) {
         contains(error("\"initial.y\" = {dist=\"norm\", mean=\"0 rad\", sd=1}"), "initial.y.mean is \"0 rad\""));
     EXPECT_TRUE(contains(error("\"initial.y\" = {dist=\"truncnorm\", mean=100, sd=1, low=0, high=1}"),
                          "initial.y.mean is 100 m (it lies more than 30 sd outside"));
-    EXPECT_EQ(error("\"joint.clearance\" = {dist=\"unif\", low=0, high=1}"),
-              "scene.toml:3: study.vary.joint.clearance.low is 0 m (the joint needs a gap); use a value > 0");
+    EXPECT_EQ(error("\"joint.clearance\" = {dist=\"unif\", low=-1, high=1}"),
+              "scene.toml:3: study.vary.joint.clearance.low is -1 m (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm");
     EXPECT_TRUE(contains(error("\"contact.restitution\" = {dist=\"unif\", low=0.5, high=1.5}"),
                          "contact.restitution.high is 1.5"));
     EXPECT_TRUE(contains(error("\"joint.clearance\" = {dist=\"const\", value=-1}"), "clearance.value is -1 m"));
@@ -170,7 +170,7 @@ TEST(SceneErrors, Distributions) {
 
 TEST(SceneErrors, OptionsAreNamedByTheirText) {
     EXPECT_EQ(error_of("schema = 1", {{"joint.clearance", "-1"}}),
-              "--set joint.clearance=-1: joint.clearance is -1 m (the joint needs a gap); use a value > 0");
+              "--set joint.clearance=-1: joint.clearance is -1 m (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm");
     EXPECT_EQ(error_of("schema = 1", {{"initial.y", "nan"}}),
               "--set initial.y=nan: initial.y is nan (not a finite number); use a finite number");
     EXPECT_EQ(error_of("schema = 1", {{"initial.y", "1e999"}}).find("--set initial.y=1e999: initial.y is "), 0u);

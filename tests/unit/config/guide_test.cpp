@@ -52,7 +52,7 @@ TEST(Guide, ComesBackFromTheResolvedScene) {
 TEST(Guide, IsRefusedWhereItHasNoMeaning) {
     EXPECT_EQ(error("free_slider", "[slider]\npin_x = 1e-3\n"), "slider.pin_x has no meaning for kind = \"free_slider\"; remove it");
     EXPECT_EQ(error("planar_slider_crank", "[slider]\nmass_center_x = 1e-3\n"), "slider.mass_center_x has no meaning for kind = \"planar_slider_crank\"; remove it");
-    EXPECT_EQ(error("carriage", "[joint]\nclearance_z_plus = 0\n"), "joint.clearance_z_plus is 0 m (the joint needs a gap); use a value > 0");
+    EXPECT_EQ(error("carriage", "[joint]\nclearance_z_plus = -1\n"), "joint.clearance_z_plus is -1 m (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm");
     EXPECT_EQ(error("free_slider", "[slider]\nmass_center_x = 1e-3\n", "rigid"), "");
     std::string const both = "[joint]\nclearance_y_plus = 1e-5\nclearance_y_minus = 2e-5\n";
     EXPECT_EQ(error("carriage", both + "[study]\nmembers = 4\n[study.vary]\n\"joint.clearance_y\" = { dist = \"unif\", low = 1e-5, high = 2e-5 }\n"),

@@ -130,8 +130,8 @@ TEST(Keys, ExtremesThatEndWithAStatusHaveNoDefect) {
 
 TEST(Keys, DefectNamesKeyValueReasonAndAdvice) {
     Inputs in;
-    in.clearance_y = 0;
-    EXPECT_EQ(defect(in), "joint.clearance_y is 0 m (the joint needs a gap); use a value > 0");
+    in.clearance_y = -1;
+    EXPECT_EQ(defect(in), "joint.clearance_y is -1 m (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm");
 }
 
 struct RuleCase {
@@ -150,7 +150,7 @@ TEST(Keys, RulesHoldAtTheirLimits) {
         {"mechanism.rod_mass_center", 1, std::nextafter(1, 2)},
         {"mechanism.inclination", -1.57, -1.58},
         {"mechanism.inclination", 1.57, 1.58},
-        {"joint.clearance_z", tiny, -tiny},
+        {"joint.clearance_z", -1e-4, -1.01e-4},
         {"joint.thickness_y", 1e-3, 0},
         {"contact.way_young_modulus", 1e5, 0},
         {"contact.slider_poisson_ratio", -0.999, -1},

@@ -205,6 +205,51 @@ TEST_F(SceneLoadFiles, OfTheGroundsMotionHaveUpToThreeColumns) {
     expect_refused("schema = 1\n[ground_motion]\n", "ground_motion.table is missing");
 }
 
+TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
+    auto const worn = [&](std::string const& csv, std::string const& more = "") {
+        return "schema = 1\n[way_profile.wear]\ntable = \"" + file(csv) + "\"\ncolumn = \"depth\"\n" + more;
+    };
+    std::string const hollow = "x [mm], depth [um]\n0, 0\n50, 20\n100, 0\n";
+    Scene const scene = scene_of(worn(hollow, "faces = \"z\"\nscale = 2\nrepeats = true\ninterpolation = \"monotone\"\n[way_ends]\nto = \"30 cm\"\n"));
+    ASSERT_EQ(scene.parts.loads.count, 2);
+    Load const& profile = scene.parts.loads.loads[0];
+    EXPECT_EQ(profile.kind, LoadKind::way_profile);
+    EXPECT_EQ(profile.faces, 12);
+    EXPECT_EQ(number(scene, 0, "scale"), 2);
+    EXPECT_NEAR(table_point(profile.table, 0.15).value, 2e-5, 1e-18);
+    EXPECT_EQ(scene.parts.loads.loads[1].kind, LoadKind::way_ends);
+    EXPECT_EQ(number(scene, 1, "to"), 0.3);
+    EXPECT_EQ(scene.parts.loads.loads[1].from, Load::none);
+    EXPECT_EQ(resolved_toml(scene_of(resolved_toml(scene))), resolved_toml(scene));
+    EXPECT_EQ(number(scene_of(worn(hollow, "scale = 1\n"), {{"way_profile.wear.scale", "7"}}), 0, "scale"), 7);
+    EXPECT_EQ(scene_of(worn(hollow)).parts.loads.loads[0].faces, 15);
+    struct Bad { std::string csv, more; char const* words; };
+    for (Bad const& bad : {
+             Bad{hollow, "faces = \"x\"\n", "way_profile.wear.faces is \"x\""},
+             Bad{hollow, "interpolation = \"linear\"\n", "way_profile.wear.interpolation is \"linear\""},
+             Bad{hollow, "over = \"time\"\n", "way_profile.wear.over is no key of a profile of the way"},
+             Bad{hollow, "scale = -1\n", "way_profile.wear.scale is -1"},
+             Bad{hollow, "scale = 100\n", "the profile has a slope of"},
+             Bad{"x, depth\n0, 0\n0.05, 20\n0.1, 0\n", "", "the profile has a slope of"},
+             Bad{"x, depth [um]\n0, 0\n0.05, -1\n0.1, 0\n", "", "p.csv:3: depth is -1e-06 m (a profile lies back"},
+             Bad{"x, depth [kg]\n0, 0\n1, 1\n", "", "its unit is none of m"},
+             Bad{"time, depth\n0, 0\n1, 1\n", "", "the table has no column x"},
+             Bad{"x, wear\n0, 0\n1, 1\n", "", "the table has no column depth"},
+             Bad{"x, depth\n0, 0\n1, 1e-3\n", "repeats = true\n", "the period does not close"},
+             Bad{hollow, "[mechanism]\nkind = \"planar_slider_crank\"\n", "way_profile"},
+             Bad{hollow, "[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n", "rigid contacts are with straight faces"},
+         }) {
+        SCOPED_TRACE(bad.csv + bad.more);
+        expect_refused(worn(bad.csv, bad.more), bad.words);
+    }
+    expect_refused("schema = 1\n[way_profile.wear]\nfaces = \"y\"\n", "way_profile.wear.table is missing");
+    expect_refused("schema = 1\n[way_profile.wear]\ntable = \"p.csv\"\n", "way_profile.wear.column is missing");
+    expect_refused("schema = 1\n[way_ends]\n", "way_ends.to is missing");
+    expect_refused("schema = 1\n[way_ends]\nfrom = 0.2\nto = 0.2\n", "way_ends.to is 0.2 (the way ends where it begins");
+    expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n", "a way without ends");
+    expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[mechanism]\nkind = \"planar_slider_crank\"\n", "way_ends");
+}
+
 TEST(SceneLoads, ElementsThatCannotBeAreOneLine) {
     struct Bad { char const *text, *words; };
     for (Bad const& bad : {

@@ -95,7 +95,7 @@ TEST(MemberTable, RefusesCellsWithoutANumber) {
 
 TEST(MemberTable, RefusesRowsThatASceneCouldNotHave) {
     EXPECT_EQ(error_of_table("part,joint.clearance [mm]\na,1\nb,-1\n"),
-              "a.csv:3: joint.clearance (column 2) is \"-1\" (the joint needs a gap); use a value > 0");
+              "a.csv:3: joint.clearance (column 2) is \"-1\" (a preload of more than 0.1 mm is not elastic); use a value >= -0.1 mm");
     EXPECT_TRUE(contains(error_of_table("friction.static\n0.1\n-0.1\n"), "a.csv:3: friction.static (column 1) is \"-0.1\" (the "));
     std::string const crank = "[study]\ndesign = \"table\"\ntable = \"a.csv\"\n";
     EXPECT_EQ(error_of_table("mechanism.rod_length [mm]\n142\n40\n", crank),

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <random>
 #include <string>
 #include <tuple>
@@ -302,6 +303,69 @@ TEST(ElementsAgainstOracle, AgreeOnThousandsOfStates) {
         auto const x = oracle::PlanarMechanism(c.inputs, c.parts).at(oracle::planar_start(c.inputs)).x;
         elements.put(c.inputs, c.parts, i, static_cast<double>(x));
         compare_planar_probe(best_isa(), c, "planar case " + std::to_string(i));
+    }
+}
+
+/// Profiles of the way on a case, so that its apices touch as they did, or nearly: what the faces lie back at both ends of the slider, the clearances lack.
+class RandomProfiles {
+public:
+    explicit RandomProfiles(std::uint64_t seed) : draw_(seed) {}
+
+    /// @param x of the slider's centre
+    void put(Inputs& in, Parts& parts, std::size_t i, double x) {
+        int next = 0;
+        double const depth = 0.3 * std::min(in.clearance_y, in.clearance_z), half = 0.5 * in.slider_length;
+        in.clearance_y -= depth, in.clearance_z -= depth;
+        tables_.clear(), loads_.clear();
+        add(15, depth, 0, x, half);
+        loads_.back().scale = testing::put_load_number(in, next, 1);
+        for (int const faces : {1 + static_cast<int>(i % 15), 15 - static_cast<int>(i % 7)}) {
+            add(faces, 0.03 * depth * number(), 0.03 * depth * number(), x, half);
+            if (i % 2 == 0) loads_.back().scale = testing::put_load_number(in, next, std::abs(number()));
+        }
+        if (i % 3 == 0) {
+            Load& ends = loads_.emplace_back();
+            ends.kind = LoadKind::way_ends;
+            if (i % 9 != 0) ends.from = testing::put_load_number(in, next, x - half * (1 + 0.4 * number()));
+            if (i % 9 != 3) ends.to = testing::put_load_number(in, next, x + half * (1 + 0.4 * number()));
+        }
+        parts.loads = {loads_.data(), static_cast<int>(loads_.size())};
+    }
+
+private:
+    double number() { return static_cast<double>(draw_() >> 11) * 0x1p-52 - 1; }
+
+    /// Two pieces, one for each end.
+    void add(int faces, double depth, double more, double x, double half) {
+        double const from = x - 1.2 * half, middle = x + 0.1 * half, rear = 0.2 * half, front = 0.9 * half, steep = 0.02 * number(), bend = 0.1 * number();
+        tables_.emplace_back(std::vector<PieceTable::Piece>{{from, depth - rear * steep, steep, 0, 0, 0},
+                                                            {middle, depth + more - front * (front * bend - 0.5 * steep), -0.5 * steep, bend, 0, 0}},
+                             x + 1.5 * half);
+        Load& load = loads_.emplace_back();
+        load.kind = LoadKind::way_profile, load.over = LoadArgument::x, load.table = tables_.back().table(), load.faces = faces;
+    }
+
+    std::mt19937_64 draw_;
+    std::deque<testing::Pieces> tables_;
+    std::vector<Load> loads_;
+};
+
+TEST(WayProfilesAgainstOracle, AgreeOnThousandsOfStates) {
+    for (Mechanism const mechanism : oracle::spatial_mechanisms()) {
+        for (Law const law : {Law::paper, Law::foundation}) {
+            RandomProfiles profiles(51);
+            auto cases = oracle::make_cases(20261202, 2000, mechanism, law);
+            int compared = 0, pushed = 0;
+            for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
+                auto& c = cases[i];
+                profiles.put(c.inputs, c.parts, i, oracle::evaluate(c.inputs, c.parts, c.t, c.state).x);
+                auto const found = oracle::evaluate(c.inputs, c.parts, c.t, c.state);
+                pushed += found.surfaces + found.lines + found.points > 0;
+                compared += compare_probe(best_isa(), c, oracle::name_of(mechanism) + " case " + std::to_string(i));
+            }
+            EXPECT_GT(compared, 1800);
+            EXPECT_GT(pushed, 1000);
+        }
     }
 }
 

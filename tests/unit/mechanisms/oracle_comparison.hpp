@@ -116,7 +116,7 @@ inline void compare_forces(std::string const& what, oracle::Case const& c, oracl
             auto const apex = static_cast<std::size_t>(face_apex(face, k));
             double const f = (is_y ? r.fn_y : r.fn_z)[apex];
             normal[face] += f;
-            along[face] += f * (k < 2 ? 0.5 : -0.5) * in.slider_length;
+            along[face] += f * r.ahead[apex];
             across[face] += f * across_signs[k] * 0.5 * width;
             wear[face] += f * (is_y ? r.slip_y : r.slip_z)[apex] / (in.slider_length * width);
         }
