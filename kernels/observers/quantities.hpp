@@ -36,7 +36,7 @@ enum class Keeper { mechanism, accelerations, forces, signals };
     row(energy_residual, of_audit, mechanism, "J", 1, nullptr, "energy residual E(t)-E(0)-W-W_l-W_g+D_f+D_d+D_s: energy that the contact law made") \
     row(switching_energy, counted, mechanism, "J", 1, nullptr, "sum of the jumps of the contact potential where modes switch, at located switches") \
     row(energy_change, counted, mechanism, "J", 1, nullptr, "mechanical energy E(t)-E(0)") \
-    row(crank_work, audited_integral, mechanism, "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage") \
+    row(drive_work, audited_integral, mechanism, "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage") \
     row(friction_loss, audited_integral, mechanism, "J", 1, nullptr, "friction loss D_f") \
     row(damping_loss, audited_integral, mechanism, "J", 1, nullptr, "contact damping loss D_d") \
     row(load_work, audited_integral, mechanism, "J", 1, nullptr, "work of the loads on slider and crank") \

@@ -54,7 +54,7 @@ TEST_F(Export, OfMembersHasTheirNumbers) {
     ResultReader const stored = results("s.nc");
     expect_numbers(columns.at("member"), stored.values("member"));
     expect_numbers(columns.at("initial.y [m]"), stored.values("initial_y"));
-    expect_numbers(columns.at("crank_work [J]"), stored.values("crank_work"));
+    expect_numbers(columns.at("drive_work [J]"), stored.values("drive_work"));
     expect_numbers(columns.at("steps_accepted"), stored.values("steps_accepted"));
     expect_numbers(columns.at("final_vy [m s-1]"), stored.values("final_vy"));
     expect_numbers(columns.at("mode_time[line] [s]"), stored.values("mode_time"), 4, 2);

@@ -292,7 +292,7 @@ TEST_P(SampledRun, EnergyIsTheOraclesOfTheFirstAndLastState) {
         double const change = end - first.energy;
         EXPECT_NEAR(result_.value(m, Quantity::energy_change), change, 1e-12 + 2e-8 * std::abs(change)) << m;
         EXPECT_NEAR(result_.value(m, Quantity::energy_residual),
-                    change - result_.value(m, Quantity::crank_work) + result_.value(m, Quantity::friction_loss) +
+                    change - result_.value(m, Quantity::drive_work) + result_.value(m, Quantity::friction_loss) +
                         result_.value(m, Quantity::damping_loss),
                     1e-12)
             << m;
@@ -311,7 +311,7 @@ TEST_P(SampledRun, WorkAndLossesAreIntegralsOfTheOraclesPowers) {
         double const damping = integral(&oracle::Result::power_damping);
         double const jump = jumps() ? 2e-2 : 1e-3;
         double const scale = std::abs(work) + friction + damping;
-        EXPECT_NEAR(result_.value(m, Quantity::crank_work), work, jump * scale) << m;
+        EXPECT_NEAR(result_.value(m, Quantity::drive_work), work, jump * scale) << m;
         EXPECT_NEAR(result_.value(m, Quantity::friction_loss), friction, jump * friction) << m;
         EXPECT_NEAR(result_.value(m, Quantity::damping_loss), damping, 5 * jump * damping) << m;
         EXPECT_GT(friction, 0);

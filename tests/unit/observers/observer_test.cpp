@@ -125,13 +125,13 @@ TEST(Observer, PeaksAreTheLargestOfStartAndAcceptedSteps) {
 template <Quantity q> constexpr int place = Observer::first_audited + Observer::Places::integral_of<q>;
 constexpr int crank_magnitude = 0, springs = 1;
 static_assert(Observer::first_audited == 2 && Observer::powers == 2 + Observer::audit_integrals);
-static_assert(place<Quantity::crank_work> == 2 && place<Quantity::friction_loss> == 3 && place<Quantity::damping_loss> == 4);
+static_assert(place<Quantity::drive_work> == 2 && place<Quantity::friction_loss> == 3 && place<Quantity::damping_loss> == 4);
 static_assert(place<Quantity::load_work> == 5 && place<Quantity::ground_work> == 6 && place<Quantity::spring_loss> == 7);
 
 TEST(Observer, IntegrandsAreThoseOfTheTable) {
     double values[Observer::integrals];
     Observer::integrands(busy(), values);
-    EXPECT_EQ(values[place<Quantity::crank_work>], 2);
+    EXPECT_EQ(values[place<Quantity::drive_work>], 2);
     EXPECT_EQ(values[place<Quantity::friction_loss>], 3);
     EXPECT_EQ(values[place<Quantity::damping_loss>], 5);
     EXPECT_EQ(values[place<Quantity::mean_normal_force>], 4444 + 6 * 4);
@@ -247,10 +247,10 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     watched.step(1, with_energy(50), {}, first);
     watched.step(3, with_energy(102.5), {}, second);
     watched.finish(4);
-    double const work = 7 * (place<Quantity::crank_work> + 1), friction = 7 * (place<Quantity::friction_loss> + 1),
+    double const work = 7 * (place<Quantity::drive_work> + 1), friction = 7 * (place<Quantity::friction_loss> + 1),
                  damping = 7 * (place<Quantity::damping_loss> + 1), loads = 7 * (place<Quantity::load_work> + 1);
     double const ground = 7 * (place<Quantity::ground_work> + 1), springs = 7 * (place<Quantity::spring_loss> + 1);
-    EXPECT_EQ(watched(Quantity::crank_work), work);
+    EXPECT_EQ(watched(Quantity::drive_work), work);
     EXPECT_EQ(watched(Quantity::friction_loss), friction);
     EXPECT_EQ(watched(Quantity::damping_loss), damping);
     EXPECT_EQ(watched(Quantity::load_work), loads);
