@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 
 namespace slideway {
 
@@ -21,6 +22,10 @@ enum class Statistic {
 /// Who keeps a quantity: SliderObserver; AccelerationRecord or ForceRecord, which members that ask for none of its quantities do not carry along; or
 /// SignalObserver, of a mechanism's own signals.
 enum class Keeper { mechanism, accelerations, forces, signals };
+
+/// Histogram of the speeds at which faces are met: each of the four has so many bins, from these speeds [m/s] on.
+inline constexpr double impact_speed_bins[] = {0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
+inline constexpr int impact_speed_count = static_cast<int>(std::size(impact_speed_bins)), face_speed_count = 4 * impact_speed_count;
 
 // row(name, statistic, keeper, unit, columns, dimension, long name): one value (or `columns` values along `dimension`) per member at the
 // end of its run.
@@ -60,7 +65,8 @@ enum class Keeper { mechanism, accelerations, forces, signals };
     row(face_onsets, counted, forces, "1", 4, "face", "times that contact with the way's face began") \
     row(peak_friction_force, peak, forces, "N", 1, nullptr, "largest magnitude of the friction on the slider") \
     row(peak_rod_force, peak, forces, "N", 1, nullptr, "largest magnitude of the rod's force on the slider") \
-    row(peak_crank_pin_force, peak, forces, "N", 1, nullptr, "largest magnitude of the crank pin's force on the rod")
+    row(peak_crank_pin_force, peak, forces, "N", 1, nullptr, "largest magnitude of the crank pin's force on the rod") \
+    row(impact_speeds, counted, forces, "1", face_speed_count, "face_speed", "onsets of contact with the face by speed, from the label's [m/s] on")
 // clang-format on
 
 enum class Quantity : int {
@@ -76,7 +82,7 @@ struct QuantityInfo {
     Keeper keeper;
     char const* unit;
     int columns;
-    char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction, channel or face
+    char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction, channel, face or face_speed
     char const* long_name;
 
     /// Whether it is the integral of a value over the stages of the steps, or made of one.

@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 18'990u);
+    EXPECT_LE(Layer("kernels").lines(), 19'050u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'160u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'660u);
-    EXPECT_LE(Layer("host").lines(), 31'970u);
+    EXPECT_LE(Layer("host").lines(), 31'980u);
     EXPECT_LE(Layer("host/store").lines(), 4'560u);
 }
 

@@ -69,6 +69,14 @@ TEST_F(Export, OfMembersHasTheirNumbers) {
     EXPECT_FALSE(columns.contains("y [m]"));
 }
 
+TEST_F(Export, OfAHistogramHasAColumnForEachBin) {
+    ASSERT_EQ(run_scene({"--set", "study.quantities=[\"impact_speeds\"]"}).code, 0);
+    auto const columns = exported("s.nc");
+    std::vector<double> const stored = results("s.nc").values("impact_speeds");
+    expect_numbers(columns.at("impact_speeds[y_plus_0]"), stored, 32, 0);
+    expect_numbers(columns.at("impact_speeds[z_minus_0.03]"), stored, 32, 28);
+}
+
 TEST_F(Export, OfSeriesHasARowForEachSample) {
     ASSERT_EQ(run_scene({}).code, 0);
     auto const columns = exported("s.nc", {"--series", "vy,y"});

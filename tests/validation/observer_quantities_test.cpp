@@ -242,6 +242,9 @@ TEST_P(SampledRun, ForcesOfFacesAndPinsAreThoseOfTheSeries) {
             EXPECT_NEAR(result_.value(m, Quantity::peak_pv, face), pv, 1e-2 * std::max(pv, largest_pv)) << m << " " << face_names[face];
             EXPECT_NEAR(result_.value(m, Quantity::mean_pv, face), mean(of(Series::face_pv_y_plus)), jump * largest_pv) << m << " " << face_names[face];
             EXPECT_EQ(result_.value(m, Quantity::face_onsets, face), onsets[static_cast<std::size_t>(face)]) << m << " " << face_names[face];
+            double counted = 0;
+            for (int bin = 0; bin < impact_speed_count; ++bin) counted += result_.value(m, Quantity::impact_speeds, face * impact_speed_count + bin);
+            EXPECT_EQ(counted, onsets[static_cast<std::size_t>(face)]);
         }
         EXPECT_GT(largest_pv, 0);
         auto const compare = [&](Quantity q, Series x) {
