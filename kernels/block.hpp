@@ -163,6 +163,8 @@ struct ProbeResult {
     double crank_torque;               // [N m], without the crank's own weight
     double signals[most_signals];      // of the mechanism's own, as many as it has
     double forces[series_count - first_force_series];  // as series have them, of a mechanism that tells them
+    double approach_y[8], approach_z[8], sliding_y[8], sliding_z[8];  // δ' and V of the apices [m/s], likewise
+    double torque[3];                  // of the way on the slider about its hole's centre, along the ground's axes [N m], likewise
     Status status;                     // finished, or why the state cannot be evaluated
 };
 

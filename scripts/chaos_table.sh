@@ -28,7 +28,7 @@ exponents() {
     echo "== $1 mm, $2${4:+ at rtol $4}"
     "$slideway" run "$root/scenes/lyapunov_0.1mm.toml" --no-progress --force --threads "$threads" \
         --set "joint.clearance=$1 mm" --set "contact.law=$2" --set "study.members=$3" \
-        --set study.revolutions=4 "${tolerance[@]}" --set 'study.quantities=["energy_residual","crank_work","mode_time"]' \
+        --set study.revolutions=4 "${tolerance[@]}" --set 'study.quantities=["energy_residual","drive_work","mode_time"]' \
         -o "$folder/exponents_$1mm_$2${4:+_$4}.nc"
 }
 for clearance in 0.08 0.1 0.3 0.5; do

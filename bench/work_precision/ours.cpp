@@ -33,7 +33,7 @@ bool past_deadline(void const* deadline, double) { return Clock::now() > *static
 Selection audit_quantities() {
     Selection selected = 0;
     for (Quantity const q :
-         {Quantity::energy_residual, Quantity::crank_work, Quantity::friction_loss, Quantity::damping_loss}) {
+         {Quantity::energy_residual, Quantity::drive_work, Quantity::friction_loss, Quantity::damping_loss}) {
         selected |= Selection(1) << static_cast<int>(q);
     }
     return selected;
@@ -94,7 +94,7 @@ MemberOutcome outcome_of(Workplace const& work, Shape shape, Measure measure, st
     }
     if (measure == Measure::energy) {
         auto const value = [&](Quantity q) { return quantities[quantity_column(q)]; };
-        member.audit = {value(Quantity::crank_work), value(Quantity::friction_loss), value(Quantity::damping_loss),
+        member.audit = {value(Quantity::drive_work), value(Quantity::friction_loss), value(Quantity::damping_loss),
                         value(Quantity::energy_residual)};
     }
     return member;

@@ -140,8 +140,11 @@ void add_check(Options& options, CheckArguments& check) {
 
 void add_probe(Options& options, ProbeArguments& probe) {
     add_scene(options, probe.scene);
-    options.text("--csv", "STATES.csv", probe.table, "Table of states (default: the scene's start)");
-    options.text("-o,--output", "OUT.csv", probe.output, "Write CSV to this file");
+    CLI::Option* const table = options.text("--csv", "STATES.csv", probe.table, "Table of states (default: the scene's start, a result's last state)");
+    options.value("--member", "K", probe.member, "With a result in the place of SCENE: the member (default: its first)", parse_member)->excludes(table);
+    options.value("--time", "SECONDS", probe.time, "Likewise: its stored state that is nearest to this time (default: its end)", parse_time)->excludes(table);
+    CLI::Option* const output = options.text("-o,--output", "OUT.csv", probe.output, "Write CSV to this file");
+    options.flag("--explain", probe.explain, "Follow how the forces come about: apices, depths, modes, normal forces, friction, what they come to")->excludes(output);
     options.force(probe.force);
     options.json(probe.json);
 }
@@ -283,6 +286,7 @@ std::vector<CommandRow> const& command_rows() {
           {"slideway check scenes/tolerance_0.1mm.toml --resolved >resolved.toml", "A scene file with every key."}}},
         {"probe", "Compute forces, contact mode and derivative of single states", add<ProbeArguments, add_probe>,
          {{"slideway probe scenes/slider_crank_0.1mm.toml --set initial.z=\"0.1 mm\"", "The start of a scene, a tenth of a millimetre higher."},
+          {"slideway probe result.nc --member 3 --time 0.05 --explain", "A state that a result has stored, and how its forces come about."},
           {"slideway probe scenes/slider_crank_0.1mm.toml --csv states.csv -o forces.csv", "A table of states to a table of forces."}}},
         {"info", "Show provenance, statuses and statistics of a result file", add<InfoArguments, add_info>,
          {{"slideway info result.nc", "Where a result comes from, how its members ended, their statistics."},

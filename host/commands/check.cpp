@@ -18,25 +18,6 @@
 namespace slideway::cli {
 namespace {
 
-/// The contacts that χ damps.
-char const* rate_damped(LawInfo const& law) { return has_group(law.groups, KeyGroup::edges) ? "line and surface" : "surface"; }
-
-/// What damps the contacts; a mechanism with corners has the point law's.
-std::string damping_text(Parts const& parts) {
-    LawInfo const& law = info(parts.law);
-    bool const of_points = !info(parts.mechanism).spatial || has_group(law.groups, KeyGroup::point_damping);
-    switch (parts.damping) {
-        case Damping::point:
-            if (of_points) return "damping of point contacts";
-            return law.keys.empty() || law.has(Damping::rate) ? "no damping" : fmt::format("damping of the {} law", law.name);
-        case Damping::rate:
-            return fmt::format("damping of {}{} contacts", of_points ? "point, " : "", rate_damped(law));
-        case Damping::restitution:
-            return "restitution";
-    }
-    return "";
-}
-
 /// "load.plunger (indicator.csv over crank_angle), spring.return".
 std::string loads_text(Scene const& scene) {
     SceneLoads const& loads = *scene.loads;

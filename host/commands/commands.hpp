@@ -69,6 +69,7 @@ struct FailureLimit {
 
 double parse_hours(std::string_view option, std::string_view word);
 double parse_seconds(std::string_view option, std::string_view word);            // finite, > 0
+double parse_time(std::string_view option, std::string_view word);               // finite
 std::uint64_t parse_member(std::string_view option, std::string_view word);      // from 0
 MemberRange parse_member_range(std::string_view option, std::string_view word);  // "A..B", both included, from 0
 RunPart parse_part(std::string_view option, std::string_view word);              // "I/N", 1 <= I <= N
@@ -118,8 +119,11 @@ struct CheckArguments {
 int execute(CheckArguments const& arguments);
 
 struct ProbeArguments {
-    SceneArguments scene;
-    std::string table;   // empty: the scene's start
+    SceneArguments scene;  // or a result, whose states are probed
+    std::string table;     // empty: the scene's start
+    std::optional<std::uint64_t> member;  // of a result; empty: its first
+    std::optional<double> time;           // of a stored state [s]; empty: the member's end
+    bool explain = false;                 // how forces come about, too
     std::string output;  // empty: stdout
     bool force = false, json = false;
 };

@@ -7,7 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/numbers.hpp"
+#include "host/commands/text.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/store/result_seal.hpp"
+#include "host/study/explanation.hpp"
 #include "host/study/orbit_summary.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/verification.hpp"
@@ -181,6 +184,25 @@ Json of_verdicts(ResultReader const& results) {
     return list;
 }
 
+Json of_explanation(Explanation const& found, Parts const& parts) {
+    Json json{{"law", contact_info(parts).name}, {"damping", damping_text(parts)}};
+    for (ApexPair const& pair : found.pairs) {
+        json["pairs"].push_back({{"apex", fmt::format("P{}", pair.apex + 1)}, {"face", face_names[pair.face]}, {"touches", pair.touches()},
+                                 {"depth", number(pair.depth)}, {"rate", number(pair.rate)}, {"normal_force", number(pair.normal_force)},
+                                 {"sliding_speed", number(pair.sliding)}, {"friction_coefficient", number(pair.coefficient)}, {"friction", number(pair.friction)}});
+    }
+    json["modes"] = Json::array();
+    for (FaceMode const& mode : found.modes) {
+        json["modes"].push_back({{"face", face_names[mode.face]}, {"kind", mode.kind}});
+        for (int const apex : mode.apices) json["modes"].back()["apices"].push_back(fmt::format("P{}", apex + 1));
+    }
+    for (auto const& [name, vector] : {std::pair("friction", found.friction), {"force", found.force}, {"torque", found.torque}}) {
+        for (double const value : vector) json[name].push_back(number(value));
+    }
+    json["joint"] = {{"slider_length", found.length}, {"way_width", found.width}, {"way_depth", found.depth}};
+    return json;
+}
+
 }  // namespace
 
 std::string result_json(char const* command, ResultReader const& results, SealCheck const& seal, std::optional<ToleranceReport> const& report,
@@ -263,17 +285,21 @@ std::string check_json(Scene const& scene, Prediction const& prediction, std::op
     return text_of(json);
 }
 
-std::string probe_json(Scene const& scene, StateTable const& table, std::vector<ProbeResult> const& results) {
+std::string probe_json(ProbedStates const& probed) {
     Json json = object("probe");
-    json["scene"] = scene.path;
+    StateTable const& table = probed.table;
+    json["scene"] = probed.path;
+    if (probed.stored) json["member"] = probed.stored->member, json["stored"] = probed.stored->of;
     Json& rows = json["states"] = Json::array();
-    for (std::size_t row = 0; row < results.size(); ++row) {
-        Json one{{"time", table.times[row]}, {"status", name_of(results[row].status)}};
+    for (std::size_t row = 0; row < probed.results.size(); ++row) {
+        ProbeResult const& result = probed.results[row];
+        Json one{{"time", table.times[row]}, {"status", name_of(result.status)}};
         MechanismInfo const& has = info(table.mechanism);
         StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
         for (int i = 0; i < has.states; ++i) one["state"][state_info(has, i).name] = number(state[static_cast<std::size_t>(i)]);
-        for (auto const& [name, value] : result_columns(table, results[row])) one["values"][name] = number(value);
-        for (auto const& [name, value] : force_columns(has, results[row])) one["forces"][name] = number(value);
+        for (auto const& [name, value] : result_columns(table, result)) one["values"][name] = number(value);
+        for (auto const& [name, value] : force_columns(has, result)) one["forces"][name] = number(value);
+        if (probed.explained) one["explanation"] = of_explanation(explain(table, row, result), table.parts[row]);
         rows.push_back(std::move(one));
     }
     return text_of(json);

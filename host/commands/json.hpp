@@ -13,6 +13,7 @@
 #include "host/study/prediction.hpp"
 #include "host/study/probe.hpp"
 #include "host/study/series_analysis.hpp"
+#include "host/study/stored_state.hpp"
 #include "host/study/tolerance_report.hpp"
 
 namespace slideway::cli {
@@ -30,7 +31,14 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
 std::string stopped_json(std::string const& folder, std::uint64_t left);
 /// @param trial nothing where no member was tried
 std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend);
-std::string probe_json(Scene const& scene, StateTable const& table, std::vector<ProbeResult> const& results);
+struct ProbedStates {
+    std::string const& path;  // of the scene or the result
+    StateTable const& table;
+    std::vector<ProbeResult> const& results;
+    std::optional<StoredState> const& stored;  // where the state is from
+    bool explained;
+};
+std::string probe_json(ProbedStates const& probed);
 std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& analysis,
                        std::vector<std::pair<std::string, std::string>> const& rows);
 

@@ -58,6 +58,10 @@ double parse_seconds(std::string_view option, std::string_view word) {
     return given(parse_number<double>(word), accepts, option, word, "a number of seconds, more than 0");
 }
 
+double parse_time(std::string_view option, std::string_view word) {
+    return given(parse_number<double>(word), [](double seconds) { return std::isfinite(seconds); }, option, word, "a number of seconds");
+}
+
 std::uint64_t parse_member(std::string_view option, std::string_view word) {
     return given(parse_number<std::uint64_t>(word), [](std::uint64_t) { return true; }, option, word, "the number of a member, counted from 0");
 }

@@ -1,21 +1,65 @@
-#include "host/study/probe.hpp"
+#include "host/study/explanation.hpp"
 
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "host/base/error.hpp"
 #include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/store/output_target.hpp"
+#include "host/study/series_file.hpp"
+#include "host/study/stored_state.hpp"
 #include "host/study/study_run.hpp"
 #include "kernels/members/start.hpp"
 
 namespace slideway::cli {
 namespace {
+
+/// What is probed.
+struct Probed {
+    Scene scene;
+    StateTable table;
+    std::optional<StoredState> stored;  // of a result
+};
+
+bool is_result(std::string const& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error) && is_netcdf(*file_stream(path), path);
+}
+
+Probed probed_of_result(ProbeArguments const& arguments) {
+    std::string const& path = arguments.scene.path;
+    require_intact(path);
+    ResultReader const results(path);
+    Probed probed{parse_scene(results.attribute("scene"), path, arguments.scene.overrides), {}, {}};
+    if (!arguments.table.empty()) {
+        probed.table = read_state_table(*input_stream(arguments.table), arguments.table, probed.scene);
+        return probed;
+    }
+    probed.stored = stored_state(results, probed.scene.parts.mechanism, arguments.member, arguments.time);
+    take_member(probed.scene, results, probed.stored->member);
+    probed.table = state_table(probed.scene, probed.stored->numbers, std::span(&probed.stored->time, 1));
+    return probed;
+}
+
+Probed probed_of(ProbeArguments const& arguments) {
+    if (is_result(arguments.scene.path)) return probed_of_result(arguments);
+    for (auto const& [is_given, option] : {std::pair(arguments.member.has_value(), "--member"), {arguments.time.has_value(), "--time"}}) {
+        if (is_given) throw SceneError(fmt::format("{} is for states of result files, and {} is a scene; give OUT.nc in its place, or leave it out", option, arguments.scene.path));
+    }
+    Probed probed{load_scene(arguments.scene), {}, {}};
+    probed.table = arguments.table.empty() ? start_state(probed.scene) : read_state_table(*input_stream(arguments.table), arguments.table, probed.scene);
+    for (std::string const& warning : probed.scene.warnings) tell("warning: {}\n", warning);
+    return probed;
+}
 
 OutputTarget table_target(ProbeArguments const& arguments, Scene const& scene) {
     std::vector<std::string> inputs = inputs_of(scene);
@@ -25,6 +69,8 @@ OutputTarget table_target(ProbeArguments const& arguments, Scene const& scene) {
     };
     return {arguments.output, {inputs, arguments.force, is_ours}};
 }
+
+constexpr char const* untold_of_rigid = "not told: those of rigid contacts depend on how a contact began; a run stores normal_force as a series";
 
 std::string probed_text(StateTable const& table, std::vector<ProbeResult> const& results) {
     std::ostringstream out;
@@ -44,7 +90,7 @@ void print_contacts(MechanismInfo const& mechanism, ProbeResult const& result) {
         print_out("\n");
         auto const print_row = [&](std::string_view label, double const(&values)[8]) {
             print_out("  {:<18}", label);
-            for (std::size_t i = first; i < first + per_line; ++i) print_out(" {:>11.4g}", values[i]);
+            for (std::size_t i = first; i < first + per_line; ++i) print_out(" {:>11}", cell(values[i], 4));
             print_out("\n");
         };
         print_row("penetration Y [m]", result.penetration_y);
@@ -74,11 +120,19 @@ void print_forces(MechanismInfo const& mechanism, ProbeResult const& result) {
     }
 }
 
-void print_listing(Scene const& scene, StateTable const& table, ProbeResult const& result, Isa isa) {
-    print_field("scene", fmt::format("{} at t = 0, computed with {}", scene.path, name_of(isa)));
+/// Where a state is from: "out.nc, member 3 at t = 0.05 s (sample)".
+std::string state_text(Probed const& probed, std::size_t row) {
+    std::string const at = fmt::format(" at t = {:.10g} s", probed.table.times[row]);
+    if (!probed.stored) return probed.scene.path + at;
+    return fmt::format("{}, member {}{} ({})", probed.scene.path, probed.stored->member, at, probed.stored->of);
+}
+
+void print_listing(Probed const& probed, std::size_t row, ProbeResult const& result, Isa isa) {
+    StateTable const& table = probed.table;
+    print_field("state", fmt::format("{}, computed with {}", state_text(probed, row), name_of(isa)));
     print_field("status", name_of(result.status));
     MechanismInfo const& has = info(table.mechanism);
-    StateNumbers const state = start_of(info(table.mechanism), table.inputs[0]);
+    StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
     TextRows rows{{"state", "unit", "value", "derivative"}};
     for (int i = 0; i < has.states; ++i) {
         SeriesInfo const& entry = state_info(has, i);
@@ -87,6 +141,10 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_out("\n");
     print_table([&](int) { return rows; }, 3, 2, 8);
     print_contacts(has, result);
+    if (table.parts[row].rigid) {
+        print_field("energy", fmt::format("{:.10g} J", result.energy));
+        return print_field("forces", untold_of_rigid);
+    }
     if (selects(has.series, Series::face_force_y_plus)) print_forces(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
@@ -100,27 +158,66 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
         print_field(has.signals[i].name, fmt::format("{:.10g} {}", result.signals[i], has.signals[i].unit));
 }
 
+/// Steps from the apices to what acts on the slider.
+void print_explanation(Probed const& probed, std::size_t row, ProbeResult const& result) {
+    Explanation const found = explain(probed.table, row, result);
+    Parts const& parts = probed.table.parts[row];
+    print_out("\nHow the forces come about (docs/model.md, 3 to 5): apices against their faces\n");
+    print_table([&](int digits) {
+        TextRows rows{{"apex", "face", "depth [m]", "rate [m/s]", "normal force [N]", "sliding [m/s]", "coefficient", "friction [N]"}};
+        for (ApexPair const& pair : found.pairs) {
+            rows.push_back({fmt::format("P{}", pair.apex + 1), face_names[pair.face]});
+            for (double const value : {pair.depth, pair.rate, pair.normal_force, pair.sliding, pair.coefficient, pair.friction}) rows.back().push_back(cell(value, digits));
+        }
+        return rows;
+    }, 5, 2, 8);
+    print_out("\n");
+    std::vector<std::string> touching, modes;
+    for (ApexPair const& pair : found.pairs) {
+        if (pair.touches()) touching.push_back(pair.name());
+    }
+    for (FaceMode const& mode : found.modes) {
+        modes.push_back(fmt::format("{} {}", face_names[mode.face], mode.kind));
+        for (int const apex : mode.apices) modes.back() += fmt::format(" P{}", apex + 1);
+    }
+    ApexPair const& nearest = found.nearest();
+    print_field("touching", touching.empty() ? fmt::format("none; nearest is {}, {:.4g} m away", nearest.name(), -nearest.depth)
+                                             : fmt::format("{}", fmt::join(touching, ", ")));
+    print_field("law", fmt::format("{}: {}; {}", contact_info(parts).name, contact_info(parts).words, damping_text(parts)));
+    if (parts.rigid) return;
+    print_field("modes", modes.empty() ? "free flight" : fmt::format("{}", fmt::join(modes, ", ")));
+    if (parts.damping == Damping::restitution) print_field("damping", "goes by the speed of the last touch, which no state tells: as after one of 0.1 mm/s");
+    auto const vector = [](std::array<double, 3> const& v, char const* unit) { return fmt::format("{:.8g}, {:.8g}, {:.8g} {}", v[0], v[1], v[2], unit); };
+    print_field("friction", parts.friction ? vector(found.friction, "N along the way's axes") : "none: the scene has no [friction]");
+    print_field("force", vector(found.force, "N on the slider, friction included"));
+    print_field("torque", vector(found.torque, "N m about the centre of its hole"));
+}
+
 }  // namespace
 
 int execute(ProbeArguments const& arguments) {
     Isa const asked = parse_isa(arguments.scene.isa);
-    Scene const scene = load_scene(arguments.scene);
+    Probed const probed = probed_of(arguments);
+    Scene const& scene = probed.scene;
+    StateTable const& table = probed.table;
     Isa const isa = arguments.scene.isa == "auto" ? best_isa(scene.parts) : asked;
     std::optional<OutputTarget> const target = arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
-    StateTable const table =
-        arguments.table.empty() ? start_state(scene) : read_state_table(*input_stream(arguments.table), arguments.table, scene);
-    for (std::string const& warning : scene.warnings) tell("warning: {}\n", warning);
     for (std::string const& warning : table.warnings) tell("warning: {}\n", warning);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
     if (target) target->write(probed_text(table, results));
-    if (arguments.json)
-        print_out("{}", probe_json(scene, table, results));
-    else if (target)
+    if (arguments.json) {
+        print_out("{}", probe_json({scene.path, table, results, probed.stored, arguments.explain}));
+    } else if (target) {
         return exit_code::done;
-    else if (!arguments.table.empty())
+    } else if (!arguments.table.empty() && !arguments.explain) {
         print_out("{}", probed_text(table, results));
-    else
-        print_listing(scene, table, results[0], isa);
+    } else {
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            if (row > 0) print_out("\n");
+            print_listing(probed, row, results[row], isa);
+            if (arguments.explain) print_explanation(probed, row, results[row]);
+        }
+    }
     return exit_code::done;
 }
 

@@ -136,7 +136,7 @@ void print_energy_made(Scene const& scene, Statuses const& ended, std::vector<Qu
         return;
     }
     std::string sentence = fmt::format("\n{} made {:.3g} J of energy per member on average", cause, made);
-    QuantitySummary const* const work = mean_of("crank_work");
+    QuantitySummary const* const work = mean_of("drive_work");
     if (work != nullptr && std::abs(work->values.mean) > least_energy(scene)) {
         sentence += fmt::format(", {:.3g} % of the {}'s work of {:.3g} J", 100 * made / std::abs(work->values.mean),
                    counts_for(*find_key("mechanism.rod_length"), scene.parts.mechanism) ? "crank" : "drive", work->values.mean);

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "host/base/shown.hpp"
+#include "host/config/descriptors.hpp"
 
 namespace slideway::cli {
 
@@ -201,6 +202,23 @@ void print_table(std::function<TextRows(int)> const& make_rows, int digits, std:
         if (gap == 1) --digits;
         gap = 1;
     }
+}
+
+char const* rate_damped(LawInfo const& law) { return has_group(law.groups, KeyGroup::edges) ? "line and surface" : "surface"; }
+
+std::string damping_text(Parts const& parts) {
+    LawInfo const& law = info(parts.law);
+    bool const of_points = !info(parts.mechanism).spatial || has_group(law.groups, KeyGroup::point_damping);
+    switch (parts.damping) {
+        case Damping::point:
+            if (of_points) return "damping of point contacts";
+            return law.keys.empty() || law.has(Damping::rate) ? "no damping" : fmt::format("damping of the {} law", law.name);
+        case Damping::rate:
+            return fmt::format("damping of {}{} contacts", of_points ? "point, " : "", rate_damped(law));
+        case Damping::restitution:
+            return "restitution";
+    }
+    return "";
 }
 
 void print_statuses(std::vector<StatusCount> const& statuses) {

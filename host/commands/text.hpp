@@ -52,6 +52,11 @@ std::string card_memory_text(Prediction const& prediction);
 /// "as much again", or a bound for those of statistics.
 std::string shards_text(Scene const& scene, Prediction const& prediction);
 
+/// The contacts that χ damps.
+char const* rate_damped(LawInfo const& law);
+/// What damps the contacts; a mechanism with corners has the point law's.
+std::string damping_text(Parts const& parts);
+
 /// Lines `  finished  1000`.
 void print_statuses(std::vector<StatusCount> const& statuses);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include "kernels/all_laws.hpp"
 #include "kernels/all_mechanisms.hpp"
 #include "kernels/laws/list.hpp"
@@ -188,6 +190,13 @@ std::vector<std::string> labels_of(std::string_view dimension) {
     if (dimension == "axis") return {"roll", "yaw", "pitch"};
     if (dimension == "direction") return {"x", "y", "z"};
     if (dimension == "channel") return {"top", "front"};
+    if (dimension == "face_speed") {
+        std::vector<std::string> labels;
+        for (char const* const face : face_names) {
+            for (double const speed : impact_speed_bins) labels.push_back(fmt::format("{}_{}", face, speed));
+        }
+        return labels;
+    }
     if (dimension == "face") return {std::begin(face_names), std::end(face_names)};
     return {};
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/config/descriptors.hpp"
+#include "host/config/former_names.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/units.hpp"
 
@@ -73,6 +74,7 @@ std::string objection_to_signals(MechanismInfo const& mechanism) {
     std::vector<std::string> names(std::begin(of_results), std::end(of_results));
     for (Key const& key : mechanism.own_keys) names.push_back(parameter_name(key));
     for (Key const& key : keys()) names.push_back(parameter_name(key));
+    for (FormerName const& former : former_names) names.emplace_back(former.then);
     Outputs const all = outputs_of(mechanism);
     auto const take = [&](std::string_view name) {
         bool const is_free = std::ranges::count(names, name) == 0;

@@ -8,6 +8,7 @@
 #include "host/base/shown.hpp"
 #include "host/base/suggest.hpp"
 #include "host/config/drive.hpp"
+#include "host/config/former_names.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/scene_text.hpp"
 
@@ -89,6 +90,12 @@ void Reading::read_table(std::string_view table) {
         Node const* const node = row.value.read != nullptr && row.table() == table ? given(row.name) : nullptr;
         if (node != nullptr) row.value.read(scene, *node, row);
     }
+}
+
+std::string_view Reading::named_now(Node const& node, std::string_view name) {
+    std::string_view const now = name_of_now(name);
+    if (now != name) warn(fmt::format("{}: {} is the name of an earlier version; write {}", node.where, name, now));
+    return now;
 }
 
 void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem) {

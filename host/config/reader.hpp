@@ -32,6 +32,8 @@ struct Reading {
     /// What is given of the keys of a table that know their places.
     void read_table(std::string_view table);
     void warn(std::string line) { scene.warnings.push_back(std::move(line)); }
+    /// The name of a quantity at a node as it is now, with a word where an earlier version had it.
+    std::string_view named_now(Node const& node, std::string_view name);
 };
 
 /// A node that holds a numeric key of the physics.

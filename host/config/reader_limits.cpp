@@ -13,10 +13,11 @@ namespace {
 [[noreturn]] void refuse_name(Node const& node, std::string const& why, std::string const& advice) { refuse_that(node, "cannot be limited", {why, advice}); }
 
 /// Of "mode_time[free]" or "peak_normal_force": its place among the outputs of the mechanism, and the label.
-std::pair<std::size_t, std::string> read_name(Node const& node, Scene const& scene) {
+std::pair<std::size_t, std::string> read_name(Reading& reading, Node const& node) {
+    Scene const& scene = reading.scene;
     std::string_view const name = node.key;
     auto const bracket = name.find('[');
-    std::string_view const quantity = name.substr(0, bracket);
+    std::string_view const quantity = reading.named_now(node, name.substr(0, bracket));
     std::vector<std::string_view> names;
     Outputs const& outputs = outputs_of(scene.parts.mechanism);
     for (QuantityInfo const& info : outputs.quantities) names.emplace_back(info.name);
@@ -66,8 +67,11 @@ void read_limits(Reading& reading) {
     if (!table->is_table()) refuse(*table, {"it must be a table", "write [study.limits] and its quantities below"});
     Scene& scene = reading.scene;
     for (Node const& node : table->children) {
-        auto const [place, label] = read_name(node, scene);
-        scene.limits.push_back(read_limit(node, outputs_of(scene.parts.mechanism).quantities[place], label));
+        auto const [place, label] = read_name(reading, node);
+        QuantityInfo const& quantity = outputs_of(scene.parts.mechanism).quantities[place];
+        auto const is_of_same = [&](Limit const& other) { return other.quantity == quantity.name && other.label == label; };
+        if (std::ranges::any_of(scene.limits, is_of_same)) refuse_name(node, fmt::format("{} is limited already", quantity.name), "remove one of the two");
+        scene.limits.push_back(read_limit(node, quantity, label));
         scene.quantities |= Selection{1} << place;
     }
 }

@@ -103,13 +103,16 @@ void read_series(Node const& node, std::size_t place, Scene& scene) {
     scene.series |= Selection{1} << place;
 }
 
-void read_quantities(Node const& list, Scene& scene) {
+void read_quantities(Reading& reading, Node const& list) {
+    Scene& scene = reading.scene;
     if (list.type != Node::Type::array) refuse(list, {"not a list of names", "write for example [\"mean_normal_force\", \"energy_residual\"]"});
     Outputs const& outputs = outputs_of(scene.parts.mechanism);
     std::vector<std::string_view> names;
     for (QuantityInfo const& quantity : outputs.quantities) names.emplace_back(quantity.name);
     for (SeriesInfo const& series : outputs.series) names.emplace_back(series.name);
-    for (Node const& node : list.children) {
+    for (Node const& given : list.children) {
+        Node node = given;
+        node.text = reading.named_now(given, given.text);
         std::size_t const index = read_choice(node, "quantity", names);
         bool const is_series = index >= outputs.quantities.size();
         std::size_t const place = is_series ? index - outputs.quantities.size() : index;
@@ -182,7 +185,7 @@ void read_recording(Reading& reading) {
     if (samples) scene.sample_times = uniform_times(end, read_samples(reading, end)), scene.chaos.span = {end, false};
     if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;
     Node const* const list = reading.given("study.quantities");
-    if (list != nullptr) read_quantities(*list, scene);
+    if (list != nullptr) read_quantities(reading, *list);
     read_limits(reading);
     if (scene.study == StudyKind::tolerance && scene.quantities == 0) {
         refuse_missing(list != nullptr ? *list : *reading.given("study.kind"), "a quantity", "a tolerance study tells how quantities scatter",

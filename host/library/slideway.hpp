@@ -127,7 +127,8 @@ public:
     /// Names of the mechanism's state, in the order of `probe`: "y", "z", "vy", …
     std::vector<std::string> state_names() const;
     /// The equations at single states of the nominal mechanism: derivatives d_*, powers [W], penetrations [m], normal forces [N], numbers
-    /// of contacts, energies [J], crank torque [N m], and `status`, which is 0 where the state can be evaluated.
+    /// of contacts, energies [J], crank torque [N m], and `status`, which is 0 where the state can be evaluated.  Of rigid contacts penetrations
+    /// and energy, all else NaN: it depends on how contacts began.
     /// @param states rows of state_names()  @param times [s] of each row, for driven mechanisms; empty: 0
     Table probe(std::span<double const> states, std::span<double const> times = {}) const;
     /// The scene with all its defaults, in SI, as TOML.

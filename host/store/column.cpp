@@ -12,7 +12,7 @@
 namespace slideway {
 namespace {
 
-constexpr std::size_t label_length = 8;  // of the quantity table's dimensions: "surface" and room for one more letter
+constexpr std::size_t label_length = 8;  // of the quantity table's dimensions, but for those with longer ones: "surface" and room for one more letter
 
 template <class T> std::vector<T> stored_as(ResultColumn::Numbers const& numbers) {
     std::vector<T> stored(numbers.size());
@@ -58,11 +58,14 @@ std::size_t ResultColumns::size(ResultColumn const& column) const {
 
 void ResultColumns::add_labels_of(std::string const& dimension) {
     if (has_dimension(dimension)) return;
-    if (!has_dimension("label_length")) dimensions.push_back({"label_length", label_length});
     std::vector<std::string> const labels = labels_of(dimension);
+    std::size_t width = label_length;
+    for (std::string const& label : labels) width = std::max(width, label.size());
+    std::string const letters = width > label_length ? dimension + "_length" : "label_length";
+    if (!has_dimension(letters)) dimensions.push_back({letters, width});
     dimensions.push_back({dimension, labels.size()});
-    columns.push_back(label_column(dimension, dimension, "label_length", fmt::format("label along {}", dimension)));
-    columns.back().values = letters_of(labels, label_length);
+    columns.push_back(label_column(dimension, dimension, letters, fmt::format("label along {}", dimension)));
+    columns.back().values = letters_of(labels, width);
 }
 
 void put_attributes(DataFile& file, int variable, std::vector<DataFile::Attribute> const& attributes) {

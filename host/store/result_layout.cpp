@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/config/former_names.hpp"
 #include "host/store/result_view.hpp"
 
 namespace slideway {
@@ -179,7 +180,7 @@ ResultColumn parameter_column(std::string_view key, std::string_view unit, std::
 }
 
 std::vector<QuantityColumn> stored_columns(ResultView const& results) {
-    std::vector<std::string> names = parts_of(results.attribute("quantities"), " "), units = parts_of(results.attribute("quantity_units"), ", ");
+    std::vector<std::string> names = parts_of(words_of_now(results.attribute("quantities")), " "), units = parts_of(results.attribute("quantity_units"), ", ");
     // Earlier versions did not say, and knew those of the table alone.
     if (names.empty() && results.stores_members()) std::ranges::transform(quantity_table, std::back_inserter(names), &QuantityInfo::name);
     std::vector<QuantityColumn> columns;

@@ -130,7 +130,8 @@ int format_of(DataFile const& file) {
         throw FileError(fmt::format("{}: is of format {}, and slideway {} reads formats 1 to {}; read it with a newer version", file.path(),
                                     version, build_info().version, format_version));
     }
-    return version == 1 ? 1 : format_version;  // any other number is damage, which the hash tells
+    bool const is_known = version >= 1 && version == std::floor(version);
+    return is_known ? static_cast<int>(version) : format_version;  // any other number is damage, which the hash tells
 }
 
 SealCheck check_seal(NetcdfFile const& file) {

@@ -9,8 +9,9 @@ namespace slideway {
 
 inline constexpr char const* verification_group = "verification";
 
-/// Attribute `format_version` of results and shards.  Files without it are of format 1, which had no metadata hash; this program reads both.
-inline constexpr int format_version = 2;
+/// Attribute `format_version` of results and shards.  Files without it are of format 1, which had no metadata hash; up to 2 quantities had names
+/// of then (host/config/former_names.hpp).  This program reads all of them.
+inline constexpr int format_version = 3;
 
 /// The hash over all variables of a file by name (a file made in memory forgets their order): name, number of
 /// dimensions, their lengths, then the data in C order, little-endian, each number in its own width.  Every NaN counts

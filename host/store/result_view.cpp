@@ -19,6 +19,7 @@
 #include "host/base/error.hpp"
 #include "host/base/memory_room.hpp"
 #include "host/base/open_file.hpp"
+#include "host/config/former_names.hpp"
 #include "host/run/ranks.hpp"
 #include "host/store/column.hpp"
 
@@ -93,6 +94,7 @@ std::string look_apart(std::string const& path, std::function<std::string(Result
 }  // namespace
 
 ResultView::ResultView(std::shared_ptr<DataFile const> file) : variables_(file->variables()), file_(std::move(file)) {
+    for (DataFile::Variable& variable : variables_) variable.name = name_of_now(variable.name);
     std::string const name = stores_members() ? "status" : "status_count";
     if (!has(name) || shape(name).size() != 1) throw FileError(path() + ": is a netCDF file, but not a result of slideway");
 }

@@ -1,10 +1,12 @@
 #include "host/study/probe.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 
 #include <fmt/format.h>
 
+#include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/study/result_summary.hpp"
 #include "kernels/members/start.hpp"
@@ -16,6 +18,20 @@ std::vector<ProbeResult> probe(Isa isa, Parts const& parts, std::vector<Inputs> 
     find_instance(isa, parts).probe({inputs.data(), times.data(), inputs.size(), results.data()});
     return results;
 }
+
+namespace {
+
+/// Of rigid contacts a state tells depths and energy: what pushes, and so how it moves on, depends on how contacts began.
+void forget_forces(ProbeResult& result) {
+    auto const forget = [](auto& values) { std::ranges::fill(values, nan); };
+    forget(result.derivative), forget(result.normal_force_y), forget(result.normal_force_z), forget(result.forces), forget(result.signals);
+    result.surfaces = result.lines = result.points = 0;
+    for (double* const value : {&result.power_crank, &result.power_friction, &result.power_damping, &result.power_load, &result.contact_potential,
+                                &result.crank_torque})
+        *value = nan;
+}
+
+}  // namespace
 
 std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
     std::vector<Parts> kinds;
@@ -35,7 +51,10 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
             times.push_back(table.times[row]);
         }
         std::vector<ProbeResult> const group = probe(isa, parts, inputs, times);
-        for (std::size_t i = 0; i < rows.size(); ++i) results[rows[i]] = group[i];
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            results[rows[i]] = group[i];
+            if (parts.rigid) forget_forces(results[rows[i]]);
+        }
     }
     return results;
 }
@@ -64,9 +83,9 @@ std::vector<std::pair<std::string, double>> result_columns(StateTable const& tab
         add_places("pen_C", result.penetration_y);
         add_places("fn_C", result.normal_force_y);
     }
-    columns.emplace_back("surfaces", result.surfaces);
-    columns.emplace_back("lines", result.lines);
-    columns.emplace_back("points", result.points);
+    bool const is_known = !std::isnan(result.contact_potential);  // else what is held is not, either (forget_forces)
+    for (auto const& [name, count] : {std::pair("surfaces", result.surfaces), {"lines", result.lines}, {"points", result.points}})
+        columns.emplace_back(name, is_known ? count : nan);
     columns.emplace_back("energy", result.energy);
     columns.emplace_back("contact_potential", result.contact_potential);
     if (selects(has.series, Series::crank_torque)) columns.emplace_back("crank_torque", result.crank_torque);

@@ -16,7 +16,7 @@ namespace slideway {
 
 /// One column of a quantity over the members that finished; the others have no say, unstable ones neither.
 struct QuantitySummary {
-    std::string label;  // "crank_work", "mode_time[free]", "peak_apex_force[P1]"
+    std::string label;  // "drive_work", "mode_time[free]", "peak_apex_force[P1]"
     std::string unit;
     Summary values;
 };

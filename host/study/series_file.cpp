@@ -88,16 +88,6 @@ template <class Condition> std::string known_variables(ResultView const& file, C
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::uint64_t place_of(ResultView const& file, std::optional<std::uint64_t> member) {
-    if (!member) return 0;
-    auto const numbers = file.values("member");
-    auto const found = std::find(numbers.begin(), numbers.end(), static_cast<double>(*member));
-    if (found != numbers.end()) return static_cast<std::uint64_t>(found - numbers.begin());
-    throw SceneError(numbers.empty() ? fmt::format("{}: has no members", file.path())
-                                     : fmt::format("{}: has no member {}; it has {:.0f} to {:.0f}", file.path(), *member,
-                                                   numbers.front(), numbers.back()));
-}
-
 /// The values of a variable at one member's sections.  Crossings that are not equally spaced are iterates all the same, their mean
 /// spacing apart.
 StoredSeries read_sections(ResultView const& file, std::string variable, std::uint64_t place) {
@@ -132,6 +122,16 @@ StoredSeries read_sections(ResultView const& file, std::string variable, std::ui
 
 }  // namespace
 
+std::uint64_t member_place(ResultView const& file, std::optional<std::uint64_t> member) {
+    if (!member) return 0;
+    auto const numbers = file.values("member");
+    auto const found = std::find(numbers.begin(), numbers.end(), static_cast<double>(*member));
+    if (found != numbers.end()) return static_cast<std::uint64_t>(found - numbers.begin());
+    throw SceneError(numbers.empty() ? fmt::format("{}: has no members", file.path())
+                                     : fmt::format("{}: has no member {}; it has {:.0f} to {:.0f}", file.path(), *member,
+                                                   numbers.front(), numbers.back()));
+}
+
 std::optional<double> equal_spacing(std::vector<double> const& times) {
     if (times.size() < 2) return std::nullopt;
     double const spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
@@ -165,7 +165,7 @@ StoredSeries read_result_series(ResultView const& file, std::string const& varia
                          ": keeps statistics, no series of members; run one with --member K --set "
                          "study.store=members --set study.samples=1000");
     }
-    if (!file.has("time") && file.has("section_count")) return read_sections(file, variable, place_of(file, member));
+    if (!file.has("time") && file.has("section_count")) return read_sections(file, variable, member_place(file, member));
     if (!file.has("time"))
         throw SceneError(path + ": has no time series; run the scene as kind = \"ensemble\" with study.samples");
     std::vector<double> const times = file.values("time");
@@ -179,7 +179,7 @@ StoredSeries read_result_series(ResultView const& file, std::string const& varia
         throw SceneError(fmt::format("{}: has no series '{}'; use one of {}", path, variable, known_variables(file, is_series)));
     auto const spacing = equal_spacing(times);
     if (!spacing) throw SceneError(path + ": the sample times are not equally spaced");
-    std::uint64_t const place = place_of(file, member);
+    std::uint64_t const place = member_place(file, member);
     auto const all = file.values(variable);
     auto const first = all.begin() + static_cast<std::ptrdiff_t>(place * times.size());
     return {variable, file.unit(variable), {first, first + static_cast<std::ptrdiff_t>(times.size())}, *spacing};

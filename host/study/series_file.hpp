@@ -18,6 +18,9 @@ struct StoredSeries {
     double spacing;  // [s]
 };
 
+/// Where a result has a member.  @param member its number in the ensemble; nothing: the first of the file.  @throws SceneError if it is not there
+std::uint64_t member_place(ResultView const& file, std::optional<std::uint64_t> member);
+
 /// By the first bytes, not by the name; they are still there to read.  @param in freshly opened from `path`
 /// @throws FileError if the file cannot be read.
 bool is_netcdf(std::istream& in, std::string const& path);

@@ -223,9 +223,6 @@ void add_row(StateTable& table, std::vector<Column>& columns, Scene const& scene
 
 /// A table of the scene's mechanism without rows.
 StateTable empty_table(Scene const& scene) {
-    if (scene.parts.rigid) {
-        throw SceneError(fmt::format("{}: forces of rigid contacts do not follow from a state alone; run the scene, or use another contact.law", scene.path));
-    }
     StateTable table;
     table.mechanism = scene.parts.mechanism;
     table.has_loads = scene.parts.loads.count > 0;

@@ -106,7 +106,7 @@ struct ReportSettings {
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings = {});
 
 /// Adds the groups `statistics`, `yield` (if there are limits) and `sensitivity` (if anything varies) to a file that is
-/// open for writing, before it is closed.  Variables are named after their quantity (`crank_work_quantile`), lie along
+/// open for writing, before it is closed.  Variables are named after their quantity (`drive_work_quantile`), lie along
 /// its labels (if it has any, by the file's own dimension) and then along the group's: probability, bound, bin, edge,
 /// input, limit.  Labels are texts in `<dimension>_name`.  The attributes `policy` and `intervals` say whom the numbers
 /// are of.

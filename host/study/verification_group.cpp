@@ -3,6 +3,7 @@
 #include <map>
 
 #include "host/base/numbers.hpp"
+#include "host/config/former_names.hpp"
 #include "host/store/column.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/verification.hpp"
@@ -113,7 +114,7 @@ std::vector<StoredVerdict> stored_verdicts(ResultView const& results) {
     std::vector<std::string> const names = texts("checked_name"), groups = texts("members_of_name");
     std::vector<StoredVerdict> verdicts(names.size() * groups.size());
     for (std::size_t i = 0; i < verdicts.size(); ++i)
-        verdicts[i] = {names[i % names.size()], groups[i / names.size()], nan, nan, nan, nan, nan, nan, nan, nan, {}};
+        verdicts[i] = {words_of_now(names[i % names.size()]), groups[i / names.size()], nan, nan, nan, nan, nan, nan, nan, nan, {}};
     for (StoredNumber const& one : number_table) {
         bool const is_verdict = one.name == verdict_name;
         if (one.into == nullptr && !is_verdict) continue;

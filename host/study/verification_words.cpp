@@ -107,7 +107,7 @@ std::string lines_of(Verification const& v, Verdict verdict) {
     return text;
 }
 
-/// "\n  resolved: crank_work; friction_loss", of the numbers that are so; nothing where none is.
+/// "\n  resolved: drive_work; friction_loss", of the numbers that are so; nothing where none is.
 template <class IsSo> std::string names_of(Verification const& v, std::string_view what, IsSo is_so) {
     constexpr std::size_t most = 24;
     std::vector<std::string> names;

@@ -18,15 +18,17 @@ template <class Real> struct JointForces {
     Real across[face_count];    // across the way from its axis, along Z at the Y faces and along Y at the Z faces [m]
     Real pv[face_count];        // Σ F V/A: pressure times sliding speed, its mean over the face [W/m²]
     Real pressure[face_count];  // Σ F/A [Pa]
+    Quad<Real> approach[face_count], sliding[face_count];  // of the apices δ' and V [m/s]
     Vec3<Real> friction;        // on the slider, along the way's axes [N]
     Vec3<Real> contact;         // of the way on the slider, along the axes of the ground [N]
+    Vec3<Real> torque;          // of that about the centre of the slider's hole, likewise [N m]
     Vec3<Real> rod;             // of the rod on the slider [N]; 0 without a rod
     Vec3<Real> crank_pin;       // of the crank pin on the rod [N]
 
-    /// Those of the joint; `contact` along the way's axes.  @param rubs there is friction
+    /// Those of the joint; `contact` and `torque` along the way's axes.  @param rubs there is friction
     SLIDEWAY_FN void tell(ProfiledMotion<Real> const& motion, ContactReport<Real> const& report, JointParameters<Real> const& p, bool rubs) {
         Real const zero(0.0);
-        friction = contact = {zero, zero, zero};
+        friction = contact = torque = {zero, zero, zero};
         add_faces<Axis::y>(motion, report.normal_force, p, rubs);
         add_faces<Axis::z>(motion, report.normal_force, p, rubs);
         contact = contact + friction;
@@ -52,9 +54,10 @@ private:
         using Faces = FacePair<axis>;
         Real const zero(0.0), one(1.0);
         auto const& g = p.geometry;
-        auto const n = Faces::normal(motion), spin = Faces::arranged_axial(motion.spin);
-        auto const v = Faces::arranged(motion.velocity) + cross(spin, Vec3<Real>{motion.shift, zero, zero});
+        auto const n = Faces::normal(motion), v = Faces::arranged(motion.velocity), spin = Faces::arranged_axial(motion.spin);
+        Vec3<Real> const shift{motion.shift, zero, zero};
         Real const per_area = one / Faces::contact(p.contact).area;
+        auto const rates = Faces::rates(cross(spin, n), v, motion, g);
         for (int i = Faces::first_face; i < Faces::first_face + 2; ++i) {
             Real const side(i == Faces::first_face ? 1.0 : -1.0);
             auto const& f = normals[i];
@@ -63,16 +66,24 @@ private:
             Real const share = select(pushes, one / select(pushes, total, one), zero);
             force[i] = total;
             pressure[i] = total * per_area;
+            approach[i] = rates.on(side);
             along[i] = fma(motion.half_length, ((f.a + f.b) - (f.c + f.d)) * share, select(pushes, motion.shift, zero));
             across[i] = Faces::half_across(g) * (((f.a + f.d) - (f.b + f.c)) * share);
-            SlidingFace<Real> const sliding{n, fms(side, Faces::half_main(g), Faces::main(motion)), negated(Faces::across(motion)), motion.half_length,
-                                            Faces::half_across(g), v, spin};
-            auto const slip = StickSlipFriction::velocities(sliding);
-            Real const front = fma(f.a, sqrt(dot(slip.a, slip.a)), f.b * sqrt(dot(slip.b, slip.b)));
-            pv[i] = per_area * fma(f.c, sqrt(dot(slip.c, slip.c)), fma(f.d, sqrt(dot(slip.d, slip.d)), front));
+            SlidingFace<Real> const rubbing{n, fms(side, Faces::half_main(g), Faces::main(motion)), negated(Faces::across(motion)), motion.half_length,
+                                            Faces::half_across(g), v + cross(spin, shift), spin};
+            auto const slip = StickSlipFriction::velocities(rubbing);
+            auto& speed = sliding[i] = {sqrt(dot(slip.a, slip.a)), sqrt(dot(slip.b, slip.b)), sqrt(dot(slip.c, slip.c)), sqrt(dot(slip.d, slip.d))};
+            pv[i] = per_area * fma(f.c, speed.c, fma(f.d, speed.d, fma(f.a, speed.a, f.b * speed.b)));
             Real const lengthwise = motion.push(Faces::first_face / 2, side, f.a + f.b, f.c + f.d);
             contact = contact + Faces::arranged(Vec3<Real>{lengthwise, side * total * n.y, side * total * n.z});
-            if (rubs) friction = friction + Faces::arranged(StickSlipFriction::load(sliding, f, p.friction).force);
+            Real const turned = side * total;
+            Vec3<Real> const arm{turned * along[i], fnma(turned, Faces::main(motion), total * Faces::half_main(g)),
+                                 turned * (across[i] - Faces::across(motion))};
+            torque = torque + Faces::arranged_axial(cross(arm, n));
+            if (!rubs) continue;
+            auto const load = StickSlipFriction::load(rubbing, f, p.friction);
+            friction = friction + Faces::arranged(load.force);
+            torque = torque + Faces::arranged_axial(load.torque + cross(shift, load.force));
         }
     }
 };

@@ -124,7 +124,7 @@ private:
         if (!pack.needs.quantities || none(turned_)) return;
         step.attempt.report.contact.take_modes(pack.state.contacts.memory.held);
         pack.state.observation.observer.turn_mode(turned_, step.attempt.report);
-        pack.with_record(pack.state.forces, pack.needs.forces, [&](auto& f) { f.turn(turned_, pack.state.contacts.memory.held); });
+        pack.with_record(pack.state.forces, pack.needs.forces, [&](auto& f) { f.turn(turned_, pack.state.contacts.memory.held, step.attempt.report); });
     }
 
     /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of

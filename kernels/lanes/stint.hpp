@@ -202,7 +202,7 @@ private:
         }
         pack.state.observation.observer.accept(accepted, attempt.step, pack.integral, attempt.report, attempt.end, pack.needs.switches);
         pack.with_records([&](auto& record, auto...) { record.accept(accepted, attempt.step, attempt.report); });
-        if (!Stepper::by_clock) pack.with_record(pack.state.forces, pack.needs.forces, [&](auto& f) { f.see_faces(accepted, attempt.report); });
+        if (!Stepper::by_clock) pack.with_record(pack.state.forces, pack.needs.forces, [&](auto& f) { f.see_faces(accepted, attempt.step, attempt.report); });
     }
 
     /// Members that have landed at a stop: their section, and how their neighbours have departed.

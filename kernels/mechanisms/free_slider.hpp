@@ -19,7 +19,7 @@ struct NoDrive : DrivenGuide<NoDrive> {
         info.state[10] = Series::x;
         info.state[11] = Series::vx;
         info.always = selections::twelve_states;
-        info.quantities &= ~selection_of(Quantity::crank_work);
+        info.quantities &= ~selection_of(Quantity::drive_work);
         info.keys |= groups_of(KeyGroup::along, KeyGroup::body);
         info.has_exponents = false;  // nothing repeats itself
         return info;

@@ -11,20 +11,31 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 namespace detail {
 
+/// Numbers of the apices of each face of one lane: those of the Y faces, those of the Z faces.
+template <class Real> SLIDEWAY_HD void put_apices(Quad<Real> const* faces, int index, double* of_y, double* of_z) {
+    for (int face = 0; face < face_count; ++face) {
+        double* const to = face < 2 ? of_y : of_z;
+        auto const& q = faces[face];
+        to[face_apex(face, 0)] = lane(q.a, index);
+        to[face_apex(face, 1)] = lane(q.b, index);
+        to[face_apex(face, 2)] = lane(q.c, index);
+        to[face_apex(face, 3)] = lane(q.d, index);
+    }
+}
+
 /// Penetrations and forces of one lane.
 template <class Real> SLIDEWAY_HD void put_contact(ContactReport<Real> const& c, int index, ProbeResult& result) {
-    for (int face = 0; face < face_count; ++face) {
-        auto* const depth = face < 2 ? result.penetration_y : result.penetration_z;
-        auto* const force = face < 2 ? result.normal_force_y : result.normal_force_z;
-        auto const put = [&](double* to, Quad<Real> const& q) {
-            to[face_apex(face, 0)] = lane(q.a, index);
-            to[face_apex(face, 1)] = lane(q.b, index);
-            to[face_apex(face, 2)] = lane(q.c, index);
-            to[face_apex(face, 3)] = lane(q.d, index);
-        };
-        put(depth, c.penetration[face]);
-        put(force, c.normal_force[face]);
-    }
+    put_apices(c.penetration, index, result.penetration_y, result.penetration_z);
+    put_apices(c.normal_force, index, result.normal_force_y, result.normal_force_z);
+}
+
+/// What else forces of faces are told from.
+template <class Forces> SLIDEWAY_HD void put_forces(Forces const& forces, int index, ProbeResult& result) {
+    for (int k = first_force_series; k < series_count; ++k) result.forces[k - first_force_series] = lane(forces.series_value(k), index);
+    put_apices(forces.approach, index, result.approach_y, result.approach_z);
+    put_apices(forces.sliding, index, result.sliding_y, result.sliding_z);
+    double* torque = result.torque;
+    for (auto const& part : {forces.torque.x, forces.torque.y, forces.torque.z}) *torque++ = lane(part, index);
 }
 
 /// Of the planar slider: its four corners, in the places of the first four apices.
@@ -86,9 +97,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             result.energy = lane(report.energy, i);
             result.contact_potential = lane(c.potential, i);
             result.crank_torque = lane(report.crank_torque, i);
-            if constexpr (requires { report.forces; }) {
-                for (int k = first_force_series; k < series_count; ++k) result.forces[k - first_force_series] = lane(report.forces.series_value(k), i);
-            }
+            if constexpr (requires { report.forces; }) detail::put_forces(report.forces, i, result);
             double* signal = result.signals;
             if constexpr (requires { report.signal; }) for (Real const& value : report.signal) *signal++ = lane(value, i);
             result.status = holds(faults.geometry, i)         ? Status::geometry

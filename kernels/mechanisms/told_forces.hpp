@@ -55,7 +55,7 @@ SLIDEWAY_NOINLINE void tell_forces(Real t, Real const* s, [[maybe_unused]] Real 
     Vec3<Real> const position{report.x, s[0], s[1]}, velocity{report.vx, s[2], s[3]};
     auto const motion = motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
     forces.tell(motion, report.contact, p.joint, block.friction);
-    forces.contact = to_inertial(block.misaligned_way, forces.contact, way);
+    for (auto* const told : {&forces.contact, &forces.torque}) *told = to_inertial(block.misaligned_way, *told, way);
     forces.rod = forces.crank_pin = {zero, zero, zero};
     if constexpr (has_pins<Mechanism>()) {
         auto crank = Mechanism::Guide::crank(t, s, p, block.drive);

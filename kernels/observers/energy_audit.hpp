@@ -8,7 +8,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// SliderObserver::audit_step.
 template <class Real> struct EnergyAudit {
     Real change;          // E(t) − E(0)
-    Real crank_work;      // W
+    Real drive_work;      // W
     Real friction_loss;   // D_f
     Real damping_loss;    // D_d
     Real load_work;       // W_l + W_g
@@ -20,7 +20,7 @@ template <class Real> struct EnergyAudit {
     Real exchanged;       // Σ |work on the contacts' springs| of the steps
 
     /// ε, what the contact law and the method made (or lost, if negative).
-    SLIDEWAY_FN Real residual() const { return change - crank_work + friction_loss + damping_loss - load_work + spring_loss; }
+    SLIDEWAY_FN Real residual() const { return change - drive_work + friction_loss + damping_loss - load_work + spring_loss; }
 };
 
 /// Members whose method left its stable range, by the energy that it made itself; NaN tells it too.  Two signs:

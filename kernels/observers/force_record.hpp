@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/math/vec3.hpp"
@@ -29,7 +31,7 @@ struct ToldForces {
     }
 };
 
-/// Beside those it counts how often contact with each face begins.
+/// Beside those it counts how often contact with each face begins, and how fast the slider comes.
 template <class Real> class ForceRecord : public SideRecord<Real, ToldForces> {
     using Base = SideRecord<Real, ToldForces>;
 
@@ -37,17 +39,28 @@ public:
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r) {
         Base::start(fresh, r);
         for (int i = 0; i < face_count; ++i) {
-            onsets_[i] = select(fresh, Real(0.0), onsets_[i]);
+            for (auto& bin : onsets_[i]) bin = select(fresh, Real(0.0), bin);
             touching_[i] = select(fresh, touches(r.contact.penetration[i]), touching_[i]);
         }
+        stand(fresh, r);
     }
-    /// At the end of an accepted step, where contacts go by depths.
-    template <class Report> SLIDEWAY_FN void see_faces(Mask<Real> accepted, Report const& r) {
-        for (int i = 0; i < face_count; ++i) see_face(accepted, i, touches(r.contact.penetration[i]));
+    /// At the end of an accepted step, where contacts go by depths.  @param step its length [s]
+    template <class Report> SLIDEWAY_FN void see_faces(Mask<Real> accepted, Real step, Report const& r) {
+        for (int i = 0; i < face_count; ++i) {
+            auto const begins = see_face(accepted, i, touches(r.contact.penetration[i]));
+            if (any(begins)) count_onsets(begins, i, speed_of_touch(i, step, r.contact.penetration[i], r.forces.approach[i]));
+        }
+        stand(accepted, r);
     }
-    /// Where other contacts are held from here on.  @param held apices, of each face
-    SLIDEWAY_FN void turn(Mask<Real> in, Quad<Real> const* held) {
-        for (int i = 0; i < face_count; ++i) see_face(in, i, min(sum(held[i]), Real(1.0)));
+    /// Where other contacts are held from here on.  @param held apices, of each face  @param r where they turn
+    template <class Report> SLIDEWAY_FN void turn(Mask<Real> in, Quad<Real> const* held, Report const& r) {
+        for (int i = 0; i < face_count; ++i) {
+            auto const begins = see_face(in, i, min(sum(held[i]), Real(1.0)));
+            if (none(begins)) continue;
+            Real fastest(0.0);
+            each_of_four([&](Real const& is_held, Real const& rate) { fastest = max(fastest, is_held * rate); }, held[i], r.forces.approach[i]);
+            count_onsets(begins, i, fastest);
+        }
     }
 
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
@@ -58,7 +71,12 @@ public:
             this->put(selected, row, peak_pressure, i, this->peak(ToldForces::pressures + i, index));
             this->put(selected, row, peak_pv, i, this->peak(ToldForces::products + i, index));
             this->put(selected, row, mean_pv, i, time > 0 ? this->integral(i, index) / time : 0.0);
-            this->put(selected, row, face_onsets, i, lane(onsets_[i], index));
+            double onsets = 0;
+            for (int k = 0; k < impact_speed_count; ++k) {
+                onsets += lane(onsets_[i][k], index);
+                this->put(selected, row, impact_speeds, i * impact_speed_count + k, lane(onsets_[i][k], index));
+            }
+            this->put(selected, row, face_onsets, i, onsets);
         }
         this->put(selected, row, peak_friction_force, 0, this->peak(ToldForces::vectors, index));
         this->put(selected, row, peak_rod_force, 0, this->peak(ToldForces::vectors + 1, index));
@@ -68,13 +86,51 @@ public:
 private:
     /// 1 where an apex touches, else 0.
     SLIDEWAY_FN static Real touches(Quad<Real> const& depth) { return select(largest(depth) > Real(0.0), Real(1.0), Real(0.0)); }
-    SLIDEWAY_FN void see_face(Mask<Real> in, int face, Real touches) {
-        onsets_[face] = onsets_[face] + slideway::count<Real>(in & (touches > touching_[face]));
+    /// @return lanes in which contact begins
+    SLIDEWAY_FN Mask<Real> see_face(Mask<Real> in, int face, Real touches) {
+        auto const begins = in & (touches > touching_[face]);
         touching_[face] = select(in, touches, touching_[face]);
+        return begins;
+    }
+    /// What the next step starts from.
+    template <class Report> SLIDEWAY_FN void stand(Mask<Real> in, Report const& r) {
+        for (int i = 0; i < face_count; ++i) {
+            depth_[i] = select(in, r.contact.penetration[i], depth_[i]);
+            approach_[i] = select(in, r.forces.approach[i], approach_[i]);
+        }
+    }
+    SLIDEWAY_FN void count_onsets(Mask<Real> in, int face, Real speed) {
+        constexpr double from[] = {0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1};  // device code cannot index a constant of the host
+        static_assert(std::ranges::equal(from, impact_speed_bins));
+        Real above = slideway::count<Real>(in);
+        for (int k = 0; k < impact_speed_count; ++k) {
+            Real const beyond = k + 1 < impact_speed_count ? slideway::count<Real>(in & (speed >= Real(from[k + 1]))) : Real(0.0);
+            onsets_[face][k] = onsets_[face][k] + (above - beyond);
+            above = beyond;
+        }
+    }
+    /// δ' where the apex that is deepest at the end of the step came to its face, by the cubic through both ends' depths and rates.
+    SLIDEWAY_FN Real speed_of_touch(int face, Real step, Quad<Real> const& depth, Quad<Real> const& approach) const {
+        Real d0(-1.0), v0(0.0), d1(-1.0), v1(0.0);
+        auto const take = [&](Real const& d, Real const& v, Real const& at_end, Real const& v_at_end) {
+            auto const deeper = at_end > d1;
+            d0 = select(deeper, d, d0), v0 = select(deeper, v, v0), d1 = select(deeper, at_end, d1), v1 = select(deeper, v_at_end, v1);
+        };
+        each_of_four(take, depth_[face], approach_[face], depth, approach);
+        Real const s0 = step * v0, s1 = step * v1, change = d1 - d0, three(3.0), half(0.5);
+        Real const square = fms(three, change, s0 + (s0 + s1)), cube = fnma(Real(2.0), change, s0 + s1);
+        Real low(0.0), high(1.0);
+        for (int halvings = 0; halvings < 40; ++halvings) {
+            Real const middle = half * (low + high);
+            auto const is_deep = fma(middle, fma(middle, fma(middle, cube, square), s0), d0) > Real(0.0);
+            low = select(is_deep, low, middle), high = select(is_deep, middle, high);
+        }
+        return fma(high, fma(high, three * cube, square + square), s0) / step;
     }
 
-    Real onsets_[face_count];
-    Real touching_[face_count];  // 1 or 0, where the last step ended
+    Real onsets_[face_count][impact_speed_count];
+    Real touching_[face_count];                              // 1 or 0, where the last step ended
+    Quad<Real> depth_[face_count], approach_[face_count];  // there
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 
 namespace slideway {
 
@@ -22,6 +23,10 @@ enum class Statistic {
 /// SignalObserver, of a mechanism's own signals.
 enum class Keeper { mechanism, accelerations, forces, signals };
 
+/// Histogram of the speeds at which faces are met: each of the four has so many bins, from these speeds [m/s] on.
+inline constexpr double impact_speed_bins[] = {0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
+inline constexpr int impact_speed_count = static_cast<int>(std::size(impact_speed_bins)), face_speed_count = 4 * impact_speed_count;
+
 // row(name, statistic, keeper, unit, columns, dimension, long name): one value (or `columns` values along `dimension`) per member at the
 // end of its run.
 // clang-format off
@@ -36,7 +41,7 @@ enum class Keeper { mechanism, accelerations, forces, signals };
     row(energy_residual, of_audit, mechanism, "J", 1, nullptr, "energy residual E(t)-E(0)-W-W_l-W_g+D_f+D_d+D_s: energy that the contact law made") \
     row(switching_energy, counted, mechanism, "J", 1, nullptr, "sum of the jumps of the contact potential where modes switch, at located switches") \
     row(energy_change, counted, mechanism, "J", 1, nullptr, "mechanical energy E(t)-E(0)") \
-    row(crank_work, audited_integral, mechanism, "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage") \
+    row(drive_work, audited_integral, mechanism, "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage") \
     row(friction_loss, audited_integral, mechanism, "J", 1, nullptr, "friction loss D_f") \
     row(damping_loss, audited_integral, mechanism, "J", 1, nullptr, "contact damping loss D_d") \
     row(load_work, audited_integral, mechanism, "J", 1, nullptr, "work of the loads on slider and crank") \
@@ -60,7 +65,8 @@ enum class Keeper { mechanism, accelerations, forces, signals };
     row(face_onsets, counted, forces, "1", 4, "face", "times that contact with the way's face began") \
     row(peak_friction_force, peak, forces, "N", 1, nullptr, "largest magnitude of the friction on the slider") \
     row(peak_rod_force, peak, forces, "N", 1, nullptr, "largest magnitude of the rod's force on the slider") \
-    row(peak_crank_pin_force, peak, forces, "N", 1, nullptr, "largest magnitude of the crank pin's force on the rod")
+    row(peak_crank_pin_force, peak, forces, "N", 1, nullptr, "largest magnitude of the crank pin's force on the rod") \
+    row(impact_speeds, counted, forces, "1", face_speed_count, "face_speed", "onsets of contact with the face by speed, from the label's [m/s] on")
 // clang-format on
 
 enum class Quantity : int {
@@ -76,7 +82,7 @@ struct QuantityInfo {
     Keeper keeper;
     char const* unit;
     int columns;
-    char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction, channel or face
+    char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction, channel, face or face_speed
     char const* long_name;
 
     /// Whether it is the integral of a value over the stages of the steps, or made of one.

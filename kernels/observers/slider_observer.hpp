@@ -31,7 +31,7 @@ public:
         using enum Quantity;
         if constexpr (q == peak_normal_force || q == mean_normal_force) return r.contact.total_force();
         else if constexpr (q == peak_apex_force || q == mean_apex_force) return r.contact.apex_force(column);
-        else if constexpr (q == crank_work) return r.crank_power;
+        else if constexpr (q == drive_work) return r.crank_power;
         else if constexpr (q == friction_loss) return r.contact.friction_power;
         else if constexpr (q == damping_loss) return r.contact.damping_power;
         else if constexpr (q == load_work) return r.load_power;
@@ -193,11 +193,11 @@ public:
 
     /// The energy audit up to the last accepted step, where it ran.
     SLIDEWAY_FN EnergyAudit<Real> audit() const {
-        Real const crank_work = integral_[place_of<Quantity::crank_work>];
+        Real const drive_work = integral_[place_of<Quantity::drive_work>];
         Real const friction_loss = integral_[place_of<Quantity::friction_loss>];
         Real const damping_loss = integral_[place_of<Quantity::damping_loss>];
         Real const works = integral_[place_of<Quantity::load_work>] + integral_[place_of<Quantity::ground_work>];
-        return {energy_ - start_energy_, crank_work, friction_loss, damping_loss, works, integral_[place_of<Quantity::spring_loss>], integral_[turnover],
+        return {energy_ - start_energy_, drive_work, friction_loss, damping_loss, works, integral_[place_of<Quantity::spring_loss>], integral_[turnover],
                 largest_potential_,      made_,      astray_,       exchanged_};
     }
 
@@ -257,7 +257,7 @@ protected:
     SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, Report const& r, bool switches) {
         Real const zero(0.0);
         using enum Quantity;
-        Real const supplied = (integral[place_of<crank_work>] - integral[place_of<friction_loss>] - integral[place_of<damping_loss>]) +
+        Real const supplied = (integral[place_of<drive_work>] - integral[place_of<friction_loss>] - integral[place_of<damping_loss>]) +
                               ((integral[place_of<load_work>] + integral[place_of<ground_work>]) - integral[place_of<spring_loss>]);
         Real made = fnma(h, supplied, r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;

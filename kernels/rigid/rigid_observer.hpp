@@ -74,7 +74,7 @@ private:
     SLIDEWAY_FN void book(Mask<Real> in, ImpactBooks<Real> const& books) {
         using enum Quantity;
         auto const add = [&](Real& account, Real amount) { account = select(in, account + amount, account); };
-        add(this->integral_[Base::template place_of<crank_work>], books.work);
+        add(this->integral_[Base::template place_of<drive_work>], books.work);
         add(this->integral_[Base::template place_of<friction_loss>], books.friction);
         add(this->integral_[Base::template place_of<damping_loss>], books.damping);
         add(this->integral_[Base::template place_of<mean_normal_force>], books.impulse);

@@ -11,6 +11,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "host/base/bytes.hpp"
+#include "host/config/former_names.hpp"
 #include "host/library/state.hpp"
 
 namespace nb = nanobind;
@@ -196,4 +197,9 @@ NB_MODULE(_native, module) {
              })
         .def("run", &run);
     module.def("version", &version);
+    module.def("former_names", [] {
+        nb::dict names;
+        for (FormerName const& name : former_names) names[nb::str(name.then.data(), name.then.size())] = nb::str(name.now.data(), name.now.size());
+        return names;
+    });
 }

@@ -16,6 +16,7 @@ from .control_variates import ControlVariate, control_variate
 from .ensemble import Ensemble
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
 from .example import example
+from .explanation import Explanation, explain
 from .exponent_signs import exponent_signs
 from .keys import Key, Keys, keys
 from .members import finished, statuses
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 __all__ = [
     "ControlVariate",
     "Ensemble",
+    "Explanation",
     "FileError",
     "Key",
     "Keys",
@@ -51,6 +53,7 @@ __all__ = [
     "compile",
     "control_variate",
     "example",
+    "explain",
     "exponent_signs",
     "finished",
     "groups",

@@ -200,7 +200,7 @@ class Ensemble:
         Returns:
             Arrays [rows]: derivatives ``d_y`` …, powers [W], penetrations [m] and normal forces [N] of the apices, numbers of surfaces,
             lines and points in contact, energies [J], ``crank_torque`` [N m], signals of a mechanism of one's own, and ``status``, 0 where
-            the state can be evaluated.
+            the state can be evaluated. Of rigid contacts penetrations and energy; all else is NaN, for it depends on how contacts began.
 
         >>> forces = slideway.Ensemble({"schema": 1}).probe({"y": [0.0, 1.001e-4]})
         >>> forces["surfaces"]

@@ -19,6 +19,7 @@ from xarray.backends.netCDF4_ import NETCDF4_PYTHON_LOCK
 from xarray.core import indexing
 
 from .errors import SlidewayError
+from .former_names import name_of_now
 
 if TYPE_CHECKING:
     import netCDF4
@@ -95,6 +96,11 @@ def place_of(file: netCDF4.Dataset, group: str | None) -> Any:
     return file if group is None else file.groups[group]
 
 
+def variables_of(place: Any) -> dict[str, netCDF4.Variable]:
+    """The variables of a file or group under their names of now."""
+    return {name_of_now(name): variable for name, variable in place.variables.items()}
+
+
 def bytes_of(variable: netCDF4.Variable) -> int:
     """Bytes of a variable's values."""
     return int(np.prod(variable.shape, dtype=np.float64)) * _type_of(variable).itemsize
@@ -110,7 +116,7 @@ def read(
         rows: which entries of a dimension; of those left out all.
     """
     place = place_of(file, group)
-    wanted = {key: variable for key, variable in place.variables.items() if names is None or key in names}
+    wanted = {key: variable for key, variable in variables_of(place).items() if names is None or key in names}
     keys = {key: tuple((rows or {}).get(d, slice(None)) for d in variable.dimensions) for key, variable in wanted.items()}
     sizes = {key: _bytes_within(variable, keys[key]) for key, variable in wanted.items()}
     all_at_once = sum(sizes.values()) <= largest_at_once

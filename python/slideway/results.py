@@ -16,12 +16,13 @@ from . import netcdf, sizes
 from .arguments import dataset, one_line, text
 from .arguments import path as path_text
 from .errors import FileError, RunError, SceneError, SlidewayError
+from .former_names import words_of_now
 from .program import call, find_program
 from .temporary import TemporaryPath, temporary_path
 
 StrPath = Union[str, "os.PathLike[str]"]
 
-_newest_format = 2  # format_version of results that this package knows
+_newest_format = 3  # format_version of results that this package knows
 _checked: dict[str, tuple[int, ...]] = {}  # files that the program found intact, and what they were then
 
 
@@ -289,7 +290,7 @@ def labelled(dataset: xr.Dataset) -> xr.Dataset:
     for name in [str(v) for v in dataset.variables]:
         stem = name.removesuffix("_name")
         if stem != name and dataset[name].dims == (stem,):
-            labels = np.asarray(dataset[name].values).astype(str)
+            labels = np.array([words_of_now(label) for label in np.asarray(dataset[name].values).astype(str)], dtype=str)
             dataset = dataset.drop_vars(name).assign_coords({stem: (stem, labels, dataset[name].attrs)})
     if "member_label" in dataset:
         dataset = dataset.set_coords("member_label")

@@ -10,6 +10,7 @@ import xarray as xr
 
 from .arguments import dataset, members, one_line
 from .errors import SlidewayError
+from .former_names import words_of_now
 from .members import numbers, with_members
 
 if sys.version_info >= (3, 11):
@@ -41,6 +42,7 @@ def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) 
     text = dataset(result).attrs.get("scene")
     if not text or not isinstance(text, str):
         raise SlidewayError("this Dataset carries no scene; use the one that slideway.open or slideway.run returned")
+    text = words_of_now(text)
     resolved = tomllib.loads(_derived.sub(r"\1", text) if derived else text)
     if member is not None:
         _draw(resolved, result, member)

@@ -95,11 +95,12 @@ def with_labels(file: netCDF4.Dataset, names: Sequence[str]) -> frozenset[str]:
     """Variables of a result, and those that say which members, samples and entries their values are of."""
     if isinstance(names, str) or not isinstance(names, Sequence):
         raise SlidewayError(f'variables is {arguments.shown(names)}; give a list of names: ["peak_normal_force"]')
+    variables = netcdf.variables_of(file)
     for name in names:
-        if arguments.text(name, "a name in variables") not in file.variables:
-            there = ", ".join(file.variables)
+        if arguments.text(name, "a name in variables") not in variables:
+            there = ", ".join(variables)
             raise SlidewayError(f'there is no variable "{name}" in this result; it has {arguments.shortened(there, 300)}')
-    dimensions = {dimension for name in names for dimension in file.variables[name].dimensions}
+    dimensions = {dimension for name in names for dimension in variables[name].dimensions}
     labels = {label for dimension in dimensions for label in (dimension, f"{dimension}_name")}
     labels |= {"time"} if "sample" in dimensions else set()
     labels |= {"section_count", "member"} if "section" in dimensions else set()

@@ -9,6 +9,7 @@ import xarray as xr
 
 from . import arguments
 from .errors import SlidewayError
+from .former_names import words_of_now
 from .members import numbers, statuses, with_members
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ def series(result: xr.Dataset, *names: str) -> pd.DataFrame:
 def _of_members(whole: xr.Dataset) -> list[str]:
     """Variables along ``member``, but for series, in the order of the table."""
     own = [str(name) for name, data in whole.data_vars.items() if data.dims[:1] == ("member",) and "sample" not in data.dims and name != "status"]
-    quantities = str(whole.attrs.get("quantities", "")).split()
+    quantities = words_of_now(str(whole.attrs.get("quantities", ""))).split()
     return sorted(own, key=lambda name: 0 if "key" in whole[name].attrs else 1 if name in quantities else 2)
 
 

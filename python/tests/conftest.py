@@ -42,7 +42,7 @@ recipes: dict[str, tuple[str, dict[str, object]]] = {
     "columns": ("sweep_clearance.toml", {
         "study.members": 3, "study.points": 4, "study.transient_revolutions": 0, "study.revolutions": 2, "contact.law": "conservative",
         "mechanism.crank_speed": "600 rpm",
-        "study.quantities": ["peak_normal_force", "mode_time", "energy_residual", "crank_work", "friction_loss", "damping_loss"]}),
+        "study.quantities": ["peak_normal_force", "mode_time", "energy_residual", "drive_work", "friction_loss", "damping_loss"]}),
     "coarse": ("ensemble_starts.toml", {"study.members": 12, "study.samples": 81, "study.duration": "400 ms"}),
     "tolerance": ("tolerance_0.1mm.toml", {"study.base": 16, "study.duration": "20 ms"}),
     "correlations": ("tolerance_0.1mm.toml", {

@@ -14,7 +14,7 @@ import slideway
 import xarray as xr
 
 Result = Callable[[str], xr.Dataset]
-format_1 = Path(__file__).resolve().parents[2] / "tests" / "formats" / "result_1.nc"
+format_1, format_2 = (Path(__file__).resolve().parents[2] / "tests" / "formats" / f"result_{k}.nc" for k in (1, 2))
 
 
 @pytest.fixture
@@ -79,9 +79,9 @@ def test_any_changed_byte_is_refused_or_does_not_matter(copy: Path) -> None:
 
 def test_newer_format_is_refused(copy: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     with netCDF4.Dataset(copy, "a") as file:
-        file.format_version = np.int32(3)
-    assert "is of format 3" in refusal(copy)
-    with pytest.raises(slideway.SlidewayError, match="is of format 3, and this package reads formats 1 to 2"):
+        file.format_version = np.int32(4)
+    assert "is of format 4" in refusal(copy)
+    with pytest.raises(slideway.SlidewayError, match="is of format 4, and this package reads formats 1 to 3"):
         slideway.open(copy, check=False)
 
 
@@ -96,6 +96,27 @@ def test_format_1_is_read(check: bool, program: str, tmp_path: Path) -> None:
     if check:
         page = slideway.report.write(format_1, tmp_path / "p.html").read_text(encoding="utf-8")
         assert "A result of format 1" in page
+
+
+@pytest.mark.parametrize("check", [True, False])
+def test_format_2_is_read_under_the_names_of_now(check: bool, program: str, tmp_path: Path) -> None:
+    with slideway.open(format_2, check=check) as result, netCDF4.Dataset(format_2) as file:
+        assert "crank_work" not in result
+        np.testing.assert_array_equal(result.drive_work.values, file["crank_work"][:])
+        assert slideway.scene(result)["study"]["quantities"] == ["peak_normal_force", "drive_work"]
+        assert list(slideway.members_table(result).columns)[1:4] == ["initial.y", "peak_normal_force", "drive_work"]
+        mean = float(result.drive_work.mean())
+    with slideway.open(format_2, check=check, variables=["drive_work"]) as result:
+        assert list(result.data_vars) == ["drive_work"]
+    with slideway.open(format_2, group="statistics", check=check) as statistics:
+        np.testing.assert_allclose(statistics.drive_work_mean.item(), mean, rtol=1e-14)
+    with slideway.open(format_2, group="yield", check=check) as yields:
+        assert yields.limit.values.tolist() == ["drive_work"]
+    with slideway.open(format_2, group="verification", check=check) as verification:
+        assert verification.checked.values.tolist()[1:3] == ["drive_work [J]", "yield of drive_work [1]"]
+    if check:
+        page = slideway.report.write(format_2, tmp_path / "p.html").read_text(encoding="utf-8")
+        assert "A result of format 2" in page and "drive_work" in page
 
 
 def test_without_the_program_a_warning_says_so(copy: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -27,6 +27,23 @@ def test_samples_are_found_by_time(result_of: Result) -> None:
     np.testing.assert_array_equal(result.z.sel(time=0.005, method="nearest").values, result.z.values[:, 100])
 
 
+def test_impact_speeds_have_faces_and_speeds_for_labels(program: str, tmp_path: Path) -> None:
+    scene = {"schema": 1, "contact": {"law": "conservative"}, "study": {
+        "members": 4, "duration": "20 ms", "quantities": ["impact_speeds", "face_onsets", "peak_apex_force"],
+        "vary": {"initial.y": {"dist": "unif", "low": "-0.05 mm", "high": "0.05 mm"}}}}  # fmt: skip
+    speeds = ["0", "0.001", "0.003", "0.01", "0.03", "0.1", "0.3", "1"]
+    names = [f"{face}_{speed}" for face in ("y_plus", "y_minus", "z_plus", "z_minus") for speed in speeds]
+    for result in (slideway.run(scene, progress=False), slideway.run(scene, tmp_path / "a.nc", progress=False)):
+        assert list(result.face_speed.values) == names
+        assert list(result.apex.values) == [f"P{k}" for k in range(1, 9)]
+        np.testing.assert_array_equal(result.impact_speeds.values.reshape(4, 4, 8).sum(axis=2), result.face_onsets.values)
+        assert result.face_onsets.sum() > 0
+        assert list(slideway.members_table(result).filter(like="impact_speeds").columns) == [f"impact_speeds[{name}]" for name in names]
+    scene["study"]["store"] = "statistics"  # type: ignore[index]
+    kept = slideway.run(scene, tmp_path / "k.nc", progress=False)
+    np.testing.assert_allclose(kept.slideway.statistics.impact_speeds_mean.values, result.impact_speeds.mean("member").values, rtol=1e-12)
+
+
 def test_modes_are_found_by_name(result_of: Result) -> None:
     result = result_of("ensemble")
     assert list(result.mode_class.values) == ["free", "point", "line", "surface"]

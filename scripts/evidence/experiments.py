@@ -172,7 +172,7 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
         seconds = float(result["time"][-1])
         late = result["y"].isel(sample=slice(result.sizes["sample"] // 2, None))
         made = result["energy_residual"]
-        work = float(result["crank_work"].mean())
+        work = float(result["drive_work"].mean())
         switches = "–"
         if "switching_energy" in result:
             apart = float(np.abs(made - result["switching_energy"]).sum()) / max(float(np.abs(made).sum()), 1e-30)

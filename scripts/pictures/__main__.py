@@ -14,7 +14,7 @@ from .figures import bifurcation, energy_residual, heyoka, modes, poincare, tole
 from .film import film
 from .impacts import rigid
 from .jobs import JOBS
-from .overviews import layers, plots, report, stability
+from .overviews import explain, layers, plots, report, stability
 from .regimes import regimes
 from .style import Picture, largest
 
@@ -34,6 +34,7 @@ PICTURES: dict[str, Picture] = {
     "stability": stability,
     "layers": layers,
     "plots": plots,
+    "explain": explain,
     "report": report,
 } | JOBS
 

@@ -80,8 +80,8 @@ def energy_residual(root: Path) -> str:
         rows = []
         for time in times:
             result = run(root, _standard, law, vary=_starts, study__members=8, study__samples_per_revolution=0,
-                         study__revolutions=float(time / 2), study__quantities=["energy_residual", "crank_work"])
-            rows.append([1e3 * result[name].values for name in ("energy_residual", "crank_work")])
+                         study__revolutions=float(time / 2), study__quantities=["energy_residual", "drive_work"])
+            rows.append([1e3 * result[name].values for name in ("energy_residual", "drive_work")])
         residual, work = np.transpose(rows, (1, 2, 0))
         for row in residual:
             ax.plot(np.concatenate([[0], times]), np.concatenate([[0], row]), color=law_colours[law], lw=1.2, alpha=0.8)

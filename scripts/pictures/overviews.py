@@ -56,6 +56,17 @@ def plots(root: Path) -> str:
     return as_svg(figure)
 
 
+def explain(root: Path) -> str:
+    """The state with the largest force of a member, apex by apex (docs/command_line.md)."""
+    result = run(root, "scenes/ensemble_starts.toml", "conservative", study__members=2, study__duration="40 ms", study__samples=4001,
+                 study__quantities=["normal_force"])  # fmt: skip
+    largest = float(result.time[int(result.normal_force.values[1].argmax())])
+    figure, axes = panels(1, 2, height=3.0)
+    for ax, view in zip(axes, ("end", "side"), strict=True):
+        slideway.plot.apex_forces(slideway.explain(result, member=1, time=largest), ax, view=view)
+    return as_svg(figure)
+
+
 def report(root: Path) -> bytes:
     """The upper part of the page that `slideway report` writes of a tolerance study, as a browser shows it."""
     browser = shutil.which("chromium") or shutil.which("google-chrome")

@@ -19,7 +19,7 @@ CASES = {"case 1": "1", "case 2": "2", "case 3": "3", "case 4": "4"}
 CARRIAGE_CLEARANCES = {"0.15 mm": "2", "0.22 mm": "0.22", "0.25 mm": "1"}
 """Carriages at 6 cm/s, by the difference of the widths."""
 
-AUDIT = ["energy_residual", "crank_work", "friction_loss", "damping_loss"]
+AUDIT = ["energy_residual", "drive_work", "friction_loss", "damping_loss"]
 _CRANK = [
     *AUDIT,
     "peak_normal_force",

@@ -109,7 +109,7 @@ class Bench:
             row = [words]
             for law in LAWS:
                 made, work, seconds = (
-                    self.values(family, case, stage, law, name) for name in ("energy_residual", "crank_work", "end_time")
+                    self.values(family, case, stage, law, name) for name in ("energy_residual", "drive_work", "end_time")
                 )
                 share = estimate(made).mean / estimate(work).mean
                 self.shares[law].append(share)

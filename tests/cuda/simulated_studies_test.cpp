@@ -21,7 +21,7 @@ max_steps = 300
 members = 40
 duration = "6 ms"
 samples = 5
-quantities = ["energy_residual", "crank_work", "mode_time", "peak_normal_force", "y"]
+quantities = ["energy_residual", "drive_work", "mode_time", "peak_normal_force", "y"]
 [study.vary]
 "initial.z" = { dist = "values", values = [0, 2e-5, 0.2] }
 "initial.vy" = { dist = "unif", low = -0.05, high = 0.05 }
@@ -36,7 +36,7 @@ kind = "tolerance"
 design = "sobol"
 members = 64
 duration = "3 ms"
-quantities = ["peak_normal_force", "crank_work"]
+quantities = ["peak_normal_force", "drive_work"]
 [study.vary]
 "joint.clearance" = { dist = "unif", low = "0.05 mm", high = "0.2 mm" }
 "initial.vy" = { dist = "norm", mean = 0, sd = 0.02 }

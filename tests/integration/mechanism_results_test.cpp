@@ -151,6 +151,10 @@ TEST_F(DirectionsFile, HasAValueForEach) {
     EXPECT_EQ(results.values("acceleration_area"), (std::vector<double>{5, 6}));
     EXPECT_EQ(labels_of("direction"), (std::vector<std::string>{"x", "y", "z"}));
     EXPECT_EQ(labels_of("channel"), (std::vector<std::string>{"top", "front"}));
+    auto const speeds = labels_of("face_speed");
+    ASSERT_EQ(speeds.size(), static_cast<std::size_t>(face_speed_count));
+    EXPECT_EQ((std::vector{speeds[0], speeds[1], speeds[7], speeds[8], speeds[31]}),
+              (std::vector<std::string>{"y_plus_0", "y_plus_0.001", "y_plus_1", "y_minus_0", "z_minus_1"}));
     EXPECT_EQ(labels_of("face"), (std::vector<std::string>{"y_plus", "y_minus", "z_plus", "z_minus"}));
 }
 

@@ -35,7 +35,7 @@ ResultLayout layout() {
     ResultLayout layout;
     layout.members = run_members();
     layout.sample_times = {0.0, 0.5};
-    layout.quantities = Selection{1} << static_cast<int>(Quantity::crank_work) |
+    layout.quantities = Selection{1} << static_cast<int>(Quantity::drive_work) |
                         Selection{1} << static_cast<int>(Quantity::mode_time) |
                         Selection{1} << static_cast<int>(Quantity::peak_apex_force);
     layout.series = 0b101;  // y and vy
@@ -183,7 +183,7 @@ TEST_F(Merge, LeavesAPlaceForMembersThatHaveNotRun) {
         EXPECT_EQ(result.values("member")[i], static_cast<double>(m));
         EXPECT_EQ(result.values("status")[i] == -1, !ran) << m;
         for (char const* const name :
-             {"final_y", "crank_work", "initial_y", "steps_accepted", "end_time", "dimension"}) {
+             {"final_y", "drive_work", "initial_y", "steps_accepted", "end_time", "dimension"}) {
             EXPECT_EQ(std::isnan(result.values(name)[i]), !ran) << name << m;
         }
         for (std::size_t k = 0; k < samples; ++k) EXPECT_EQ(std::isnan(result.values("y")[samples * i + k]), !ran);

@@ -24,7 +24,7 @@ ResultLayout layout_of(std::uint64_t members) {
     layout.members = MemberSet({100, members});
     layout.sample_times = {0.0, 0.5};
     layout.quantities =
-        Selection{1} << static_cast<int>(Quantity::crank_work) | Selection{1} << static_cast<int>(Quantity::mode_time);
+        Selection{1} << static_cast<int>(Quantity::drive_work) | Selection{1} << static_cast<int>(Quantity::mode_time);
     layout.series = 0b101;  // y and vy
     layout.parameters = {parameter_column("initial.y", "m", "vertical position at the start", &Inputs::y)};
     return layout;
@@ -94,8 +94,8 @@ TEST_F(ResultFile, GivesBackWhatWasWritten) {
     EXPECT_EQ(results.values("vy"), (std::vector<double>{0.25, 0.75, 1.25, 1.75, 2.25, 2.75, 3.25, 3.75, 4.25, 4.75}));
     EXPECT_FALSE(results.has("z"));
     EXPECT_FALSE(results.has("peak_apex_force"));
-    // 18 columns stand before mode_time, 27 before crank_work in the quantity table.
-    EXPECT_EQ(results.values("crank_work"), (std::vector<double>{27, 127, 227, 327, 427}));
+    // 18 columns stand before mode_time, 27 before drive_work in the quantity table.
+    EXPECT_EQ(results.values("drive_work"), (std::vector<double>{27, 127, 227, 327, 427}));
     EXPECT_EQ(results.shape("mode_time"), (std::vector<std::size_t>{5, 4}));
     auto const mode_time = results.values("mode_time");
     EXPECT_EQ(std::vector<double>(mode_time.begin() + 4, mode_time.begin() + 8),
@@ -153,7 +153,7 @@ TEST_F(ResultFile, MarksMembersThatWereNeverWritten) {
     write_file(path(), {{1, 2}});
     ResultReader const results(path());
     EXPECT_EQ(results.values("status"), (std::vector<double>{-1, 0, 0, -1, -1}));
-    auto const work = results.values("crank_work"), steps = results.values("steps_accepted"), y = results.values("y");
+    auto const work = results.values("drive_work"), steps = results.values("steps_accepted"), y = results.values("y");
     for (std::size_t const i : {0u, 3u, 4u}) {
         EXPECT_TRUE(std::isnan(work[i]));
         EXPECT_TRUE(std::isnan(steps[i]));

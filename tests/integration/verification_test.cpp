@@ -366,7 +366,7 @@ TEST(MemberNumbers, LeaveOutTheResidualOfALawThatKeepsEnergy) {
 }
 
 TEST(MemberNumbers, OfMembersThatAreCutShortAreNone) {
-    Scene const study = scene_of("schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nmembers = 4\nduration = \"20 ms\"\nquantities = [\"crank_work\"]\n"
+    Scene const study = scene_of("schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nmembers = 4\nduration = \"20 ms\"\nquantities = [\"drive_work\"]\n"
                                  "[study.vary]\n\"initial.y\" = { dist = \"unif\", low = \"-0.05 mm\", high = \"0.05 mm\" }\n");
     auto const backend = cpu_backend(best_isa());
     MemberNumbers const whole = fresh_numbers(study, {0, 1, 2, 3}, {*backend});

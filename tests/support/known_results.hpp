@@ -22,7 +22,7 @@ inline void known_result(Block& block, std::size_t i) {
     auto const steps = static_cast<std::uint64_t>(member) + 1;
     block.records[i] = {Status::finished, steps, 2 * steps, 7 * steps, block.settings.end_time};
     for (int k = 0; k < state_size; ++k) block.final_states[i * state_size + k] = member + k;
-    block.quantity_values[i * quantity_columns + quantity_column(Quantity::crank_work)] = -member;
+    block.quantity_values[i * quantity_columns + quantity_column(Quantity::drive_work)] = -member;
     int const selected = std::popcount(block.series);
     for (int s = 0; s < selected; ++s) {
         for (std::size_t t = 0; t < block.samples; ++t) {
@@ -59,7 +59,7 @@ inline EnsemblePlan small_plan(std::uint64_t members, std::size_t block_members,
     plan.threads = plan.workers = threads;
     plan.request.integrator.end_time = 2.5;
     plan.request.sample_times = {0.0, 0.25, 0.5};
-    plan.request.quantities = Selection{1} << static_cast<int>(Quantity::crank_work);
+    plan.request.quantities = Selection{1} << static_cast<int>(Quantity::drive_work);
     plan.request.series = 0b11;
     plan.source = draw_number;
     return plan;
@@ -84,7 +84,7 @@ struct Collected {
                 Member member{block.inputs[i].y, block.records[i], {}};
                 auto const state = block.final_states.subspan(i * state_size, state_size);
                 member.values.assign(state.begin(), state.end());
-                member.values.push_back(block.quantities[i * quantity_columns + quantity_column(Quantity::crank_work)]);
+                member.values.push_back(block.quantities[i * quantity_columns + quantity_column(Quantity::drive_work)]);
                 for (std::size_t s = 0; s < 2; ++s) {
                     auto const row = block.series.subspan((s * count + i) * samples, samples);
                     member.values.insert(member.values.end(), row.begin(), row.end());

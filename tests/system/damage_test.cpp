@@ -104,7 +104,7 @@ TEST_F(Damage, OfAnAttributeIsRefusedByAllReaders) {
 TEST_F(Damage, IsNotSaidOfAWholeResult) {
     make_result();
     Json const json = Json::parse(run({"info", "s.nc", "--json"}).out);
-    EXPECT_EQ(json["format_version"], 2);
+    EXPECT_EQ(json["format_version"], 3);
     EXPECT_EQ(json["payload_matches"], true);
     EXPECT_EQ(json["metadata_matches"], true);
     EXPECT_EQ(json["metadata_hash"].get<std::string>().size(), 16u);
@@ -114,9 +114,9 @@ TEST_F(Damage, IsNotSaidOfAWholeResult) {
 
 TEST_F(Damage, ANewerFormatIsRefusedByAllReaders) {
     make_result();
-    int const next = 3;
+    int const next = 4;
     edit("s.nc", [&](int file) { return nc_put_att_int(file, NC_GLOBAL, "format_version", NC_INT, 1, &next); });
-    for (auto const& command : readers("s.nc")) expect_refusal(4, "s.nc: is of format 3, and slideway 0.3.0 reads formats 1 to 2; ", command);
+    for (auto const& command : readers("s.nc")) expect_refusal(4, "s.nc: is of format 4, and slideway 0.3.0 reads formats 1 to 3; ", command);
 }
 
 // The numbers are those that the file holds, as netCDF alone reads them.
@@ -147,6 +147,35 @@ TEST_F(Damage, TheFirstFormatIsReadByAllReaders) {
     Outcome const series = run({"stats", "one.nc", "--variable", "y"});
     EXPECT_EQ(series.err, "one.nc: y: the series has 40 samples; at least 100 are needed\n");
     EXPECT_EQ(run({"report", "one.nc", "-o", "p.html"}).out, "page\n");
+}
+
+// What its numbers are called now; they are those that the file holds, as netCDF alone reads them.
+TEST_F(Damage, TheSecondFormatIsReadByAllReaders) {
+    fs::copy_file(std::string(SLIDEWAY_TEST_DATA) + "/formats/result_2.nc", path("two.nc"));
+    int file = 0, variable = 0;
+    ASSERT_EQ(nc_open(path("two.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "crank_work", &variable), NC_NOERR);
+    double work[6] = {};
+    ASSERT_EQ(nc_get_var_double(file, variable, work), NC_NOERR);
+    ASSERT_EQ(nc_close(file), NC_NOERR);
+    Outcome const told = run({"info", "two.nc", "--json"});
+    EXPECT_EQ(told.code, 0) << told.err;
+    Json const json = Json::parse(told.out);
+    EXPECT_EQ(json["format_version"], 2);
+    EXPECT_EQ(json["intact"], true);
+    EXPECT_EQ(json["quantities"][1]["name"], "drive_work");
+    EXPECT_EQ(json["quantities"][1]["max"], *std::max_element(work, work + 6));
+    EXPECT_EQ(json["tolerance"]["yields"][0]["name"], "drive_work");
+    Outcome const info = run({"info", "two.nc"});
+    EXPECT_EQ(info.code, 0) << info.err;
+    for (char const* const word : {"format       2\n", "\n  drive_work         J ", "\n  drive_work  >= 0 J "}) {
+        EXPECT_NE(info.out.find(word), std::string::npos) << word << '\n' << info.out;
+    }
+    EXPECT_EQ(info.out.find("crank_work"), std::string::npos) << info.out;
+    Outcome const table = run({"export", "two.nc", "-o", "two.csv"});
+    EXPECT_EQ(table.code, 0) << table.err;
+    EXPECT_NE(file_text(path("two.csv")).find(",drive_work [J],"), std::string::npos);
+    EXPECT_EQ(run({"report", "two.nc", "-o", "p.html"}).out, "page\n");
 }
 
 TEST_F(Damage, OfOneFileOfTheIdentityIsMended) {

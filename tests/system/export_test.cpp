@@ -54,7 +54,7 @@ TEST_F(Export, OfMembersHasTheirNumbers) {
     ResultReader const stored = results("s.nc");
     expect_numbers(columns.at("member"), stored.values("member"));
     expect_numbers(columns.at("initial.y [m]"), stored.values("initial_y"));
-    expect_numbers(columns.at("crank_work [J]"), stored.values("crank_work"));
+    expect_numbers(columns.at("drive_work [J]"), stored.values("drive_work"));
     expect_numbers(columns.at("steps_accepted"), stored.values("steps_accepted"));
     expect_numbers(columns.at("final_vy [m s-1]"), stored.values("final_vy"));
     expect_numbers(columns.at("mode_time[line] [s]"), stored.values("mode_time"), 4, 2);
@@ -67,6 +67,14 @@ TEST_F(Export, OfMembersHasTheirNumbers) {
     EXPECT_GT(failed, 0u);
     EXPECT_LT(failed, statuses.size());
     EXPECT_FALSE(columns.contains("y [m]"));
+}
+
+TEST_F(Export, OfAHistogramHasAColumnForEachBin) {
+    ASSERT_EQ(run_scene({"--set", "study.quantities=[\"impact_speeds\"]"}).code, 0);
+    auto const columns = exported("s.nc");
+    std::vector<double> const stored = results("s.nc").values("impact_speeds");
+    expect_numbers(columns.at("impact_speeds[y_plus_0]"), stored, 32, 0);
+    expect_numbers(columns.at("impact_speeds[z_minus_0.03]"), stored, 32, 28);
 }
 
 TEST_F(Export, OfSeriesHasARowForEachSample) {

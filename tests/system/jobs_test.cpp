@@ -69,7 +69,7 @@ double work_of_indicator() {
 TEST(Jobs, PumpDoesTheWorkOfItsIndicatorDiagram) {
     std::string const few = "--set study.members=16 --set study.verify=0";
     Job const pump("pump.toml", few), idle("pump.toml", few + " --set 'study.vary.\"load.plunger.scale\"={dist=\"const\",value=0}'");
-    double const work = pump.mean("load_work") / 5, lost = pump.mean("friction_loss"), given = pump.mean("crank_work");
+    double const work = pump.mean("load_work") / 5, lost = pump.mean("friction_loss"), given = pump.mean("drive_work");
     // Between rows the pressure is no straight line.
     EXPECT_NEAR(work, work_of_indicator(), 0.01 * std::abs(work));
     EXPECT_GT(lost, 20 * idle.mean("friction_loss"));
@@ -79,7 +79,7 @@ TEST(Jobs, PumpDoesTheWorkOfItsIndicatorDiagram) {
 TEST(Jobs, PressTakesItsStrokesFromTheFlywheel) {
     std::string const few = "--set study.members=8 --set study.verify=0";
     Job const press("press.toml", few), light("press.toml", few + " --set 'study.vary.\"drive.inertia\"={dist=\"const\",value=0.05}'");
-    double const work = press.mean("load_work"), given = press.mean("crank_work");
+    double const work = press.mean("load_work"), given = press.mean("drive_work");
     // What the drive gives and does not go into the strokes is in friction, impacts and what turns.
     double const lost = press.mean("friction_loss") + press.mean("damping_loss"), kept = press.mean("energy_change");
     EXPECT_LT(work, -50);
@@ -91,7 +91,7 @@ TEST(Jobs, PressTakesItsStrokesFromTheFlywheel) {
 TEST(Jobs, CarriageFollowsItsProfile) {
     // There and back it stops where it began: all that the drive gives is lost, but for what the slider keeps across the way.
     Job const job("carriage.toml", "--set study.members=4 --set study.verify=0");
-    double const given = job.mean("crank_work");
+    double const given = job.mean("drive_work");
     EXPECT_GT(given, 0);
     EXPECT_NEAR(given, job.mean("friction_loss") + job.mean("damping_loss") + job.mean("energy_change"), 1e-4 * given);
 }
@@ -192,7 +192,7 @@ TEST(Jobs, OverhangPressesItsEdgesAsItsMomentsSay) {
     double const mass = 1.2, mu = 0.12, l = 0.03, h = 0.01, pin = -0.025, overhang = 0.045;
     double const press = mass * weight * (overhang - h * mu) / (l - pin * mu);
     EXPECT_NEAR(late.mean("friction_loss") - early.mean("friction_loss"), mu * press * 0.2 * 0.08, 3e-3 * mu * press * 0.2 * 0.08);
-    EXPECT_NEAR(late.mean("crank_work") - early.mean("crank_work"), mu * press * 0.2 * 0.08, 3e-3 * mu * press * 0.2 * 0.08);
+    EXPECT_NEAR(late.mean("drive_work") - early.mean("drive_work"), mu * press * 0.2 * 0.08, 3e-3 * mu * press * 0.2 * 0.08);
     // On the way back friction turns round.
     Job const end("overhang.toml", until("0.5")), middle("overhang.toml", until("0.42"));
     double const back = mass * weight * (overhang + h * mu) / (l + pin * mu);
@@ -208,7 +208,7 @@ TEST(Jobs, WornWayLeansTheCarriageAsItsDepthsSay) {
     for (std::size_t const of : {2u, 5u}) EXPECT_NEAR(tilt[of], pitch, 0.02 * pitch);
     double const rub = 0.1 * 1.5 * weight;
     EXPECT_NEAR(job.mean("friction_loss"), rub * 0.4 * 0.44, 0.01 * rub * 0.4 * 0.44);
-    EXPECT_NEAR(job.mean("crank_work"), job.mean("friction_loss") + job.mean("damping_loss") + job.mean("energy_change"), 1e-4 * job.mean("crank_work"));
+    EXPECT_NEAR(job.mean("drive_work"), job.mean("friction_loss") + job.mean("damping_loss") + job.mean("energy_change"), 1e-4 * job.mean("drive_work"));
 }
 
 TEST(Jobs, LeaningWayPressesOnTwoFaces) {

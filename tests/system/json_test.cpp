@@ -39,9 +39,9 @@ TEST_F(JsonOutput, OfARunAndOfItsFileAreOneButForTheRun) {
     EXPECT_EQ(told["statuses"], (Json{{"finished", 37}}));
     EXPECT_EQ(told["dimensions"]["member"], 37);
     double sum = 0;
-    for (double const value : file.values("crank_work")) sum += value;
+    for (double const value : file.values("drive_work")) sum += value;
     auto const& quantities = told["quantities"];
-    auto const work = std::find_if(quantities.begin(), quantities.end(), [](Json const& one) { return one["name"] == "crank_work"; });
+    auto const work = std::find_if(quantities.begin(), quantities.end(), [](Json const& one) { return one["name"] == "drive_work"; });
     ASSERT_NE(work, quantities.end());
     EXPECT_EQ((*work)["unit"], "J");
     EXPECT_NEAR((*work)["mean"].get<double>(), sum / 37, 1e-12 * std::abs(sum));

@@ -18,7 +18,7 @@ protected:
     Json told(std::string const& scene, std::vector<std::string> const& keys) const {
         std::vector<std::string> words{"run", fmt::format("{}/{}", SLIDEWAY_SCENES, scene), "--no-progress", "--json", "--force", "-o", "r.nc", "--max-failures", "100%",
                                        "--isa", "scalar"};
-        for (std::string const key : {"study.members=1", "study.samples_per_revolution=0", "study.quantities=[\"energy_residual\", \"crank_work\"]"})
+        for (std::string const key : {"study.members=1", "study.samples_per_revolution=0", "study.quantities=[\"energy_residual\", \"drive_work\"]"})
             words.insert(words.end(), {"--set", key});
         for (std::string const& key : keys) words.insert(words.end(), {"--set", key});
         Outcome const outcome = run(words);

@@ -188,7 +188,7 @@ rtol = 1e-10
 members = 16
 duration = "30 ms"
 samples = 4
-quantities = ["energy_residual", "crank_work", "friction_loss", "damping_loss", "energy_change", "contact_onsets"]
+quantities = ["energy_residual", "drive_work", "friction_loss", "damping_loss", "energy_change", "contact_onsets"]
 verify = 0
 [study.vary]
 "mechanism.stall_torque" = { dist = "unif", low = 0.4, high = 0.6 }
@@ -198,7 +198,7 @@ verify = 0
     ASSERT_EQ(run_scene(springs, "whole.nc").code, 0);
     expect_refusal(2, "the contacts of a motor_yoke give way); use another law, or mechanism.kind = slider_crank or ", {"check", "s.toml", "--set", "contact.law=rigid", "--set", "contact.restitution=0.5"});
     auto const file = results("whole.nc");
-    auto const residual = file.values("energy_residual"), work = file.values("crank_work"), torque = file.values("mechanism_stall_torque");
+    auto const residual = file.values("energy_residual"), work = file.values("drive_work"), torque = file.values("mechanism_stall_torque");
     auto const speed = file.values("final_crank_angular_velocity");
     for (std::size_t i = 0; i < residual.size(); ++i) {
         EXPECT_LT(std::abs(residual[i]), 1e-9) << i;

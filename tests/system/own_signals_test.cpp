@@ -29,7 +29,7 @@ rtol = 1e-9
 [study]
 members = 16
 duration = "40 ms"
-quantities = ["crank_work", "max_motor_torque", "min_motor_torque", "mean_motor_torque", "rms_motor_torque", "final_motor_torque", "max_motor_power", "mean_motor_power"]
+quantities = ["drive_work", "max_motor_torque", "min_motor_torque", "mean_motor_torque", "rms_motor_torque", "final_motor_torque", "max_motor_power", "mean_motor_power"]
 verify = 0
 [study.vary]
 "mechanism.stall_torque" = { dist = "unif", low = 0.4, high = 0.6 }
@@ -43,7 +43,7 @@ protected:
 /// What they are follows from T = T0 (1 − ω/ω0): from the angle and speed of the crank, and from the work of the drive.
 TEST_F(OwnSignals, AreSeriesAndQuantitiesOfTheirMembers) {
     provide_motor();
-    ASSERT_EQ(run_scene({"--set", "study.samples=401", R"(study.quantities=["motor_torque", "motor_power", "crank_work", "max_motor_torque", "min_motor_torque", "mean_motor_torque", "rms_motor_torque", "final_motor_torque", "max_motor_power", "mean_motor_power"])"}, "s.nc").code, 0);
+    ASSERT_EQ(run_scene({"--set", "study.samples=401", R"(study.quantities=["motor_torque", "motor_power", "drive_work", "max_motor_torque", "min_motor_torque", "mean_motor_torque", "rms_motor_torque", "final_motor_torque", "max_motor_power", "mean_motor_power"])"}, "s.nc").code, 0);
     auto const file = results("s.nc");
     EXPECT_EQ(file.unit("motor_torque"), "N m");
     EXPECT_EQ(file.long_name("motor_torque"), "torque of the motor");
@@ -53,7 +53,7 @@ TEST_F(OwnSignals, AreSeriesAndQuantitiesOfTheirMembers) {
     constexpr double seconds = 0.04, no_load = 60;
     auto const of = [&](char const* name) { return file.values(name); };
     auto const stall = of("mechanism_stall_torque"), torque = of("motor_torque"), power = of("motor_power"), speed = of("crank_angular_velocity");
-    auto const angle = of("final_crank_angle"), at_end = of("final_crank_angular_velocity"), work = of("crank_work");
+    auto const angle = of("final_crank_angle"), at_end = of("final_crank_angular_velocity"), work = of("drive_work");
     auto const largest = of("max_motor_torque"), least = of("min_motor_torque"), mean = of("mean_motor_torque"), rms = of("rms_motor_torque"), last = of("final_motor_torque");
     std::size_t const samples = file.values("time").size();
     ASSERT_EQ(samples, 401u);

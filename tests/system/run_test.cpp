@@ -18,7 +18,7 @@ TEST_F(Run, WritesItsResultsAndSaysWhere) {
     EXPECT_EQ(outcome.err, "");
     EXPECT_TRUE(outcome.out.ends_with("results      s.nc\n")) << outcome.out;
     for (char const* const word : {"A small ensemble", "members/s", "finished", "accepted", "lanes in use",
-                                   "crank_work", "mode_time[surface]", "Mode switching of the paper law made"}) {
+                                   "drive_work", "mode_time[surface]", "Mode switching of the paper law made"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
     ResultReader const file = results("s.nc");
@@ -118,7 +118,7 @@ TEST_F(Run, ReplaysOneMemberBitForBit) {
     EXPECT_EQ(one.values("member"), std::vector<double>{29});
     EXPECT_EQ(three.values("member"), (std::vector<double>{28, 29, 30}));
     for (char const* const name : {"initial_y", "steps_accepted", "rhs_evaluations", "final_y", "final_vy", "final_wx",
-                                   "crank_work", "energy_residual"}) {
+                                   "drive_work", "energy_residual"}) {
         EXPECT_EQ(one.values(name)[0], all.values(name)[29]) << name;
         EXPECT_EQ(three.values(name)[1], all.values(name)[29]) << name;
     }
@@ -244,7 +244,7 @@ TEST_F(Run, InfoTellsOfItsResults) {
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
     for (char const* const word : {"A small ensemble", "matches the data", "member           37", "sample           6",
-                                   "finished         37", "crank_work", "[study.vary]"}) {
+                                   "finished         37", "drive_work", "[study.vary]"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word << "\n" << outcome.out;
     }
 }

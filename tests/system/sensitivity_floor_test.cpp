@@ -88,7 +88,7 @@ kind = "ensemble"
 members = 3
 verify = 0
 duration = "10 ms"
-quantities = ["energy_residual", "crank_work"]
+quantities = ["energy_residual", "drive_work"]
 vary = { "initial.y" = { "dist" = "unif", "low" = -1e-4, "high" = 1e-4 } }
 )");
     for (std::string const gravity : {"0", "9.81"}) {  // in 10 ms the fall is 0.5 mm of 1 mm

@@ -18,7 +18,7 @@ law = "paper"
 members = 37
 duration = "5 ms"
 samples = 6
-quantities = ["energy_residual", "crank_work", "mode_time"]
+quantities = ["energy_residual", "drive_work", "mode_time"]
 [study.vary]
 "initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
 )";

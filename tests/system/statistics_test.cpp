@@ -142,7 +142,7 @@ TEST_F(StatisticsRun, InfoAndCheckKnowIt) {
 
 TEST_F(StatisticsRun, AnEnsembleWithoutLimitsHasItsReport) {
     write("e.toml",
-          "schema = 1\n[contact]\nlaw = \"paper\"\n[friction]\n[study]\nmembers = 20\nduration = \"0.1 ms\"\nquantities = [\"crank_work\", "
+          "schema = 1\n[contact]\nlaw = \"paper\"\n[friction]\n[study]\nmembers = 20\nduration = \"0.1 ms\"\nquantities = [\"drive_work\", "
           "\"energy_residual\"]\nstore = \"statistics\"\n[study.vary]\n\"initial.y\" = { dist = \"unif\", low = "
           "\"-0.09 mm\", high = \"0.09 mm\" }\n");
     Outcome const outcome = run({"run", "e.toml", "--no-progress"});
@@ -150,7 +150,7 @@ TEST_F(StatisticsRun, AnEnsembleWithoutLimitsHasItsReport) {
     EXPECT_NE(outcome.out.find("Quantiles are sketched"), std::string::npos);
     EXPECT_NE(outcome.out.find("Mode switching of the paper law made"), std::string::npos);
     EXPECT_EQ(outcome.out.find("Yield"), std::string::npos);
-    EXPECT_EQ(statistic("e.nc", "crank_work_count"), std::vector<double>{20});
+    EXPECT_EQ(statistic("e.nc", "drive_work_count"), std::vector<double>{20});
 }
 
 }  // namespace

@@ -307,13 +307,13 @@ TEST_F(Usage, OfCheckTellsWhatIsInTheKernels) {
     EXPECT_NE(line(bare, "parts out").find("misaligned way"), std::string::npos);
     write("full.toml",
           "schema = 1\n[friction]\n[way]\nroll = 1e-4\n[contact]\nlaw = \"conservative\"\nchi_line = 0.1\n"
-          "[study]\nquantities = [\"crank_work\"]\n");
+          "[study]\nquantities = [\"drive_work\"]\n");
     std::string const full = run({"check", "full.toml"}).out;
     EXPECT_NE(line(full, "parts in").find("conservative law"), std::string::npos);
     EXPECT_NE(line(full, "parts in").find("; friction"), std::string::npos);
     EXPECT_NE(line(full, "parts in").find("misaligned way"), std::string::npos);
     EXPECT_NE(line(full, "parts out").find("paper law"), std::string::npos);
-    EXPECT_EQ(line(full, "asked for"), "asked for    crank_work");
+    EXPECT_EQ(line(full, "asked for"), "asked for    drive_work");
     for (char const* const label : {"kernels", "memory", "disk", "cost"}) EXPECT_NE(line(full, label), "") << label;
     // A status each; with a quantity of one column that column, its finished members and them sorted as
     // well; and a quarter more.

@@ -83,7 +83,7 @@ TEST(Carriage, CarriesTheLoadsOfStaticsOnASlope) {
         for (int const bottom : {2, 3, 6, 7}) EXPECT_EQ(apex(bottom), 0);
         // The drive lifts the slider up the slope and drags it along.
         double const power = (weight * std::sin(slope) + drag) * in.carriage_speed;
-        EXPECT_NEAR(r.value(0, Quantity::crank_work), power * 0.2, 1e-3 * power * 0.2);
+        EXPECT_NEAR(r.value(0, Quantity::drive_work), power * 0.2, 1e-3 * power * 0.2);
         EXPECT_NEAR(r.value(0, Quantity::friction_loss), drag * in.carriage_speed * 0.2, 1e-3 * power * 0.2);
     }
 }

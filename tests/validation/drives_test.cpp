@@ -71,7 +71,7 @@ TEST(Drives, MotorRunsAYokeUpAsItsEnergySays) {
         EXPECT_NEAR(r.states[0][10], turned, 1e-10 * turned) << share;
         double const speed = std::sqrt(2 * in.drive_torque * turned / inertia(turned));
         EXPECT_NEAR(r.states[0][11], speed, 1e-10 * speed) << share;
-        EXPECT_NEAR(r.value(0, Quantity::crank_work), in.drive_torque * turned, 1e-10 * in.drive_torque * turned);
+        EXPECT_NEAR(r.value(0, Quantity::drive_work), in.drive_torque * turned, 1e-10 * in.drive_torque * turned);
     }
 }
 
@@ -163,7 +163,7 @@ TEST(Drives, ProfileOfConstantSpeedMovesAsConstantSpeedDoes) {
             with.parts.drive = {.by = DriveBy::profile, .table = &even.table()};
             auto const b = run(in, with);
             for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(a.states[0][i], b.states[0][i], 1e-6 * (1e-4 + std::abs(a.states[0][i]))) << i;
-            EXPECT_NEAR(a.value(0, Quantity::crank_work), b.value(0, Quantity::crank_work), 1e-6 * std::abs(a.value(0, Quantity::crank_work)) + 1e-9);
+            EXPECT_NEAR(a.value(0, Quantity::drive_work), b.value(0, Quantity::drive_work), 1e-6 * std::abs(a.value(0, Quantity::drive_work)) + 1e-9);
         }
     }
 }
@@ -176,7 +176,7 @@ TEST(Drives, ProfileGivesACarriageTheEnergyOfItsSpeed) {
     double const t = 0.25;
     auto const r = run(in, options(Mechanism::carriage, {.by = DriveBy::profile, .table = &even.table()}, t, 1e-10));
     double const m = complete_inputs(in).slider_mass, work = m * (8 * t * t + in.gravity * std::sin(0.3) * 2 * t * t);
-    EXPECT_NEAR(r.value(0, Quantity::crank_work), work, 1e-9 * work);
+    EXPECT_NEAR(r.value(0, Quantity::drive_work), work, 1e-9 * work);
 }
 
 TEST(Drives, KeepTheAuditOfEveryMechanismToRounding) {
@@ -203,7 +203,7 @@ TEST(Drives, KeepTheAuditOfEveryMechanismToRounding) {
                 o.parts.rigid = rigid, o.parts.friction = true, o.parts.loads = {&load, 1};
                 if (rigid) o.parts.damping = Damping::restitution;
                 auto const r = run(in, o);
-                double const work = std::abs(r.value(0, Quantity::load_work)) + std::abs(r.value(0, Quantity::crank_work));
+                double const work = std::abs(r.value(0, Quantity::load_work)) + std::abs(r.value(0, Quantity::drive_work));
                 EXPECT_GT(work, 1e-3);
                 EXPECT_GT(r.value(0, Quantity::contact_onsets), 0);
                 EXPECT_LT(std::abs(r.value(0, Quantity::energy_residual)), 200 * tolerance * work) << tolerance << " " << work;

@@ -181,7 +181,7 @@ TEST(GroundMotion, LeavesASliderBehindThatNothingHolds) {
 }
 
 /// What of a run does not depend on how its weight is said.
-constexpr Quantity of_motion[] = {Quantity::crank_work, Quantity::rms_crank_torque, Quantity::mean_normal_force, Quantity::rms_acceleration};
+constexpr Quantity of_motion[] = {Quantity::drive_work, Quantity::rms_crank_torque, Quantity::mean_normal_force, Quantity::rms_acceleration};
 
 void expect_same_motion(testing::EnsembleResult const& a, testing::EnsembleResult const& b, Mechanism mechanism, double share) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(info(mechanism).states); ++i)
@@ -279,7 +279,7 @@ TEST(Elements, DriveTheAuditOfEveryMechanismToRounding) {
                 if (rigid) o.parts.damping = Damping::restitution;
                 auto const r = run(l, o);
                 double work = r.value(0, Quantity::spring_loss);
-                for (Quantity const q : {Quantity::ground_work, Quantity::crank_work}) work += std::abs(r.value(0, q));
+                for (Quantity const q : {Quantity::ground_work, Quantity::drive_work}) work += std::abs(r.value(0, q));
                 EXPECT_GT(std::abs(r.value(0, Quantity::ground_work)), 1e-6);
                 EXPECT_GT(r.value(0, Quantity::spring_loss), 1e-5);
                 EXPECT_GT(r.value(0, Quantity::contact_onsets), 0);

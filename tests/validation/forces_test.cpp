@@ -148,5 +148,34 @@ TEST(Forces, OfFacesAreMetAsOftenAsFlightsEndByStepsAndByClocks) {
     }
 }
 
+/// The speed of a fall, v² = v0² + 2 g s, a thousandth below and above each bin's: steps that end at touches, that do not, and clocks.
+TEST(Forces, OfFacesAreMetAtTheSpeedsOfFalls) {
+    struct Kind { Law law; Damping damping; Method method; };
+    for (Kind const& kind : {Kind{Law::conservative, Damping::point, Method::dopri5}, Kind{Law::conservative, Damping::rate, Method::dopri5},
+                             Kind{Law::conservative, Damping::rate, Method::verner65}, Kind{Law::paper, Damping::point, Method::dopri5},
+                             Kind{Law::kelvin_voigt, Damping::point, Method::bs32}, Kind{Law::conservative, Damping::restitution, Method::dopri5}}) {
+        for (int edge = 1; edge < impact_speed_count; ++edge) {
+            for (double const share : {0.999, 1.001}) {
+                double const speed = share * impact_speed_bins[edge];
+                Loaded l{{}, {}};
+                l.in.chi_surface = l.in.chi_line = 0.5, l.in.law_a = 1e9, l.in.law_b = 5e3, l.in.restitution = 0.5;
+                // As high as there is room, at a tenth of the speed or more.
+                double const fall = std::min(1e-4, 0.99 * speed * speed / (2 * l.in.gravity));
+                l.in.y = fall - 1e-4, l.in.vy = -std::sqrt(speed * speed - 2 * l.in.gravity * fall);
+                double const flight = (speed + l.in.vy) / l.in.gravity;
+                auto o = options(l, Mechanism::free_slider, 1.02 * flight + 3e-5, 1e-8);
+                o.parts.law = kind.law, o.parts.damping = kind.damping, o.settings.method = kind.method;
+                auto const r = run(l, o);
+                ASSERT_GE(r.value(0, Quantity::face_onsets, 0), 1) << edge;
+                double of_all = 0;
+                for (int bin = 0; bin < impact_speed_count; ++bin) of_all += r.value(0, Quantity::impact_speeds, bin);
+                EXPECT_EQ(of_all, r.value(0, Quantity::face_onsets, 0));
+                int const bin = share < 1 ? edge - 1 : edge;
+                EXPECT_EQ(r.value(0, Quantity::impact_speeds, bin), 1) << info(kind.law).name << " " << static_cast<int>(kind.method) << " at " << speed;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace slideway::forces_test

@@ -120,11 +120,11 @@ TEST(Loads, DriveTheAuditOfEveryMechanismToRounding) {
                 o.parts.rigid = rigid, o.parts.friction = true;
                 if (rigid) o.parts.damping = Damping::restitution;
                 auto const r = run(l, o);
-                double const work = std::abs(r.value(0, Quantity::load_work)) + std::abs(r.value(0, Quantity::crank_work));
+                double const work = std::abs(r.value(0, Quantity::load_work)) + std::abs(r.value(0, Quantity::drive_work));
                 EXPECT_GT(work, 1e-3);
                 EXPECT_GT(r.value(0, Quantity::contact_onsets), 0);
                 last = std::abs(r.value(0, Quantity::energy_residual)) / work;
-                EXPECT_LT(last, 200 * tolerance) << r.value(0, Quantity::load_work) << " " << r.value(0, Quantity::crank_work);
+                EXPECT_LT(last, 200 * tolerance) << r.value(0, Quantity::load_work) << " " << r.value(0, Quantity::drive_work);
             }
         }
     }
@@ -140,7 +140,7 @@ TEST(Loads, OnTheCrankAreTheDrivesAlone) {
         EXPECT_NEAR(a.states[0][0], b.states[0][0], 1e-9);
         double const work = 0.25 * without.in.crank_speed * t;
         EXPECT_NEAR(b.value(0, Quantity::load_work), work, 1e-12 * work);
-        EXPECT_NEAR(b.value(0, Quantity::crank_work), a.value(0, Quantity::crank_work) - work, 2e-6 * work) << info(mechanism).name;
+        EXPECT_NEAR(b.value(0, Quantity::drive_work), a.value(0, Quantity::drive_work) - work, 2e-6 * work) << info(mechanism).name;
     }
 }
 

@@ -242,6 +242,9 @@ TEST_P(SampledRun, ForcesOfFacesAndPinsAreThoseOfTheSeries) {
             EXPECT_NEAR(result_.value(m, Quantity::peak_pv, face), pv, 1e-2 * std::max(pv, largest_pv)) << m << " " << face_names[face];
             EXPECT_NEAR(result_.value(m, Quantity::mean_pv, face), mean(of(Series::face_pv_y_plus)), jump * largest_pv) << m << " " << face_names[face];
             EXPECT_EQ(result_.value(m, Quantity::face_onsets, face), onsets[static_cast<std::size_t>(face)]) << m << " " << face_names[face];
+            double counted = 0;
+            for (int bin = 0; bin < impact_speed_count; ++bin) counted += result_.value(m, Quantity::impact_speeds, face * impact_speed_count + bin);
+            EXPECT_EQ(counted, onsets[static_cast<std::size_t>(face)]);
         }
         EXPECT_GT(largest_pv, 0);
         auto const compare = [&](Quantity q, Series x) {
@@ -292,7 +295,7 @@ TEST_P(SampledRun, EnergyIsTheOraclesOfTheFirstAndLastState) {
         double const change = end - first.energy;
         EXPECT_NEAR(result_.value(m, Quantity::energy_change), change, 1e-12 + 2e-8 * std::abs(change)) << m;
         EXPECT_NEAR(result_.value(m, Quantity::energy_residual),
-                    change - result_.value(m, Quantity::crank_work) + result_.value(m, Quantity::friction_loss) +
+                    change - result_.value(m, Quantity::drive_work) + result_.value(m, Quantity::friction_loss) +
                         result_.value(m, Quantity::damping_loss),
                     1e-12)
             << m;
@@ -311,7 +314,7 @@ TEST_P(SampledRun, WorkAndLossesAreIntegralsOfTheOraclesPowers) {
         double const damping = integral(&oracle::Result::power_damping);
         double const jump = jumps() ? 2e-2 : 1e-3;
         double const scale = std::abs(work) + friction + damping;
-        EXPECT_NEAR(result_.value(m, Quantity::crank_work), work, jump * scale) << m;
+        EXPECT_NEAR(result_.value(m, Quantity::drive_work), work, jump * scale) << m;
         EXPECT_NEAR(result_.value(m, Quantity::friction_loss), friction, jump * friction) << m;
         EXPECT_NEAR(result_.value(m, Quantity::damping_loss), damping, 5 * jump * damping) << m;
         EXPECT_GT(friction, 0);

@@ -38,7 +38,7 @@ testing::RunOptions options_of(double tolerance, double end_time) {
 }
 
 constexpr Selection one(Quantity q) { return Selection(1) << static_cast<int>(q); }
-constexpr Selection audit = one(Quantity::energy_residual) | one(Quantity::crank_work) | one(Quantity::friction_loss) |
+constexpr Selection audit = one(Quantity::energy_residual) | one(Quantity::drive_work) | one(Quantity::friction_loss) |
                             one(Quantity::damping_loss) | one(Quantity::load_work) | one(Quantity::ground_work) |
                             one(Quantity::spring_loss);
 
@@ -279,7 +279,7 @@ TEST(Quantities, OfTheAuditAreTheSameBesideAnyOther) {
                     std::uint64_t const search = method == Method::dop853 ? 7 : 4, more = with.rhs_evaluations - without.rhs_evaluations;
                     EXPECT_EQ(more % search, 0u) << what;
                     EXPECT_TRUE(more == 0 || (method != Method::ros34pw2 && method != Method::rk4)) << what;
-                    for (Quantity const q : {Quantity::crank_work, Quantity::friction_loss, Quantity::damping_loss, Quantity::energy_residual}) {
+                    for (Quantity const q : {Quantity::drive_work, Quantity::friction_loss, Quantity::damping_loss, Quantity::energy_residual}) {
                         EXPECT_EQ(alone.value(m, q), all.value(m, q)) << what << ", quantity " << static_cast<int>(q);
                     }
                 }

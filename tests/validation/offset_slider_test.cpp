@@ -70,7 +70,7 @@ TEST(OffsetPin, SwingsAsItsFirstIntegralSays) {
         EXPECT_NEAR(r.states[0][6], angle, 1e-11);
         EXPECT_NEAR(r.states[0][9], w * std::sqrt((inertia + added) / (inertia + added * std::cos(angle) * std::cos(angle))), 1e-10);
         EXPECT_NEAR(r.value(0, Quantity::energy_residual), 0, 1e-14);
-        EXPECT_GT(std::abs(r.value(0, Quantity::crank_work)), 1e-7);
+        EXPECT_GT(std::abs(r.value(0, Quantity::drive_work)), 1e-7);
     }
 }
 
@@ -144,7 +144,7 @@ void expect_audit(Mechanism mechanism, bool rigid, PieceTable const& wave) {
         if (rigid) o.parts.damping = Damping::restitution;
         auto const r = run(l, o);
         double work = 0;
-        for (Quantity const q : {Quantity::ground_work, Quantity::crank_work, Quantity::load_work, Quantity::friction_loss}) work += std::abs(r.value(0, q));
+        for (Quantity const q : {Quantity::ground_work, Quantity::drive_work, Quantity::load_work, Quantity::friction_loss}) work += std::abs(r.value(0, q));
         EXPECT_GT(r.value(0, Quantity::contact_onsets), 0);
         EXPECT_GT(std::abs(r.value(0, Quantity::ground_work)), 1e-6);
         EXPECT_LT(std::abs(r.value(0, Quantity::energy_residual)), 200 * tolerance * work) << work;

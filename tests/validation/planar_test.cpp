@@ -108,7 +108,7 @@ TEST(PlanarSliderCrank, IsDrivenByTheTorqueThatItTells) {
     EXPECT_EQ(r.value(0, Quantity::contact_onsets), 0);
     double const change = r.value(0, Quantity::energy_change);
     EXPECT_GT(std::abs(change), 1e-3);
-    EXPECT_NEAR(r.value(0, Quantity::crank_work), change, 1e-7);
+    EXPECT_NEAR(r.value(0, Quantity::drive_work), change, 1e-7);
     // The drive holds its angle to the last bits.
     EXPECT_NEAR(r.states[0][0], 2.0, 1e-12);
     EXPECT_EQ(r.states[0][3], 20);

@@ -82,7 +82,7 @@ TEST(Preload, DrivesTheAuditOfEveryMechanismToRounding) {
             auto const r = testing::run(best_isa(), o, members);
             for (std::size_t i = 0; i < members.size(); ++i) {
                 EXPECT_EQ(r.records[i].status, Status::finished) << i;
-                double const work = std::abs(r.value(i, Quantity::crank_work)) + r.value(i, Quantity::friction_loss) + std::abs(r.value(i, Quantity::energy_change));
+                double const work = std::abs(r.value(i, Quantity::drive_work)) + r.value(i, Quantity::friction_loss) + std::abs(r.value(i, Quantity::energy_change));
                 EXPECT_LT(std::abs(r.value(i, Quantity::energy_residual)), 200 * 1e-6 * work + 1e-12) << i << ' ' << work;
             }
             EXPECT_GT(r.value(0, Quantity::friction_loss), r.value(3, Quantity::friction_loss)) << "what is pressed rubs more";

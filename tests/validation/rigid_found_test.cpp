@@ -29,7 +29,7 @@ protected:
     void expect_balance() {
         ASSERT_EQ(result.records[0].status, Status::finished);
         double const lost = result.value(0, Quantity::friction_loss) + result.value(0, Quantity::damping_loss);
-        double const change = std::abs(result.value(0, Quantity::energy_change)), scale = std::abs(result.value(0, Quantity::crank_work)) + change;
+        double const change = std::abs(result.value(0, Quantity::energy_change)), scale = std::abs(result.value(0, Quantity::drive_work)) + change;
         EXPECT_GE(result.value(0, Quantity::friction_loss), 0);
         EXPECT_GE(result.value(0, Quantity::damping_loss), -1e-9 * scale);
         EXPECT_GT(lost, 0);

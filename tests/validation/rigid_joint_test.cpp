@@ -272,7 +272,7 @@ TEST(RigidJoint, EndsWithAStatusAndMakesNoEnergyWhateverTheGeometry) {
                     << info(mechanism).name << i << static_cast<int>(status);
                 if (status != Status::finished) continue;
                 double const lost = r.value(i, Quantity::friction_loss) + r.value(i, Quantity::damping_loss);
-                double const scale = std::abs(r.value(i, Quantity::crank_work)) + std::abs(r.value(i, Quantity::energy_change));
+                double const scale = std::abs(r.value(i, Quantity::drive_work)) + std::abs(r.value(i, Quantity::energy_change));
                 EXPECT_GT(lost, -1e-6 * scale) << info(mechanism).name << i;
                 EXPECT_LT(std::abs(r.value(i, Quantity::energy_residual)), 1e-5 * scale) << info(mechanism).name << i;
             }

@@ -149,7 +149,7 @@ TEST(TimeStepping, OfASettledSliderHasTheLossesOfItsEvents) {
             EXPECT_NEAR(found.value(i, q), expected, share * std::abs(expected)) << i << " " << quantity_table[static_cast<int>(q)].name;
         };
         near(Quantity::friction_loss, 2e-3);
-        near(Quantity::crank_work, 2e-3);
+        near(Quantity::drive_work, 2e-3);
         near(Quantity::mean_normal_force, 2e-3);
         near(Quantity::damping_loss, 0.2);  // of some ten impacts, each of which has the speed of another step
         EXPECT_NEAR(found.value(i, Quantity::mode_time, 0), exact.value(i, Quantity::mode_time, 0), 0.01 * seconds) << i;

@@ -35,7 +35,7 @@ TEST_P(GoldenTrajectories, AreMetAtTightTolerance) {
 
         double const work = table.number(row, "work_crank");
         double const energy = 1e-7 * std::abs(work);
-        EXPECT_NEAR(got.value(0, Quantity::crank_work), work, energy) << "row " << row;
+        EXPECT_NEAR(got.value(0, Quantity::drive_work), work, energy) << "row " << row;
         EXPECT_NEAR(got.value(0, Quantity::friction_loss), table.number(row, "loss_friction"), energy) << "row " << row;
         EXPECT_NEAR(got.value(0, Quantity::damping_loss), table.number(row, "loss_damping"), energy) << "row " << row;
         // The table gives the paper law's residual to three digits.

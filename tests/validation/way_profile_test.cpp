@@ -217,7 +217,7 @@ TEST(WayProfile, DrivesTheAuditOfEveryMechanismToRounding) {
         for (double const tolerance : {1e-6, 1e-9}) {
             auto const r = run(worn.l, worn.run_options(mechanism, 0.05, tolerance));
             double work = std::abs(r.value(0, Quantity::energy_change));
-            for (Quantity const q : {Quantity::crank_work, Quantity::friction_loss}) work += std::abs(r.value(0, q));
+            for (Quantity const q : {Quantity::drive_work, Quantity::friction_loss}) work += std::abs(r.value(0, q));
             EXPECT_GT(r.value(0, Quantity::contact_onsets), 0);
             EXPECT_LT(std::abs(r.value(0, Quantity::energy_residual)), 200 * tolerance * work) << work;
         }

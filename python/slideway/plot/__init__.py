@@ -6,6 +6,7 @@
 """
 
 from .chaos import divergence, exponent_histogram, exponent_history
+from .explanation import apex_forces
 from .forces import force_histogram
 from .orbits import orbit_yz, poincare
 from .precision import work_precision
@@ -15,6 +16,7 @@ from .sweeps import bifurcation, exponent_sweep
 from .tolerance import quantiles, sensitivity
 
 __all__ = [
+    "apex_forces",
     "bifurcation",
     "cumulative_area",
     "divergence",

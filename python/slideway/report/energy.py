@@ -83,7 +83,7 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
     residual = column(every, "energy_residual")
     if residual is None or residual.count == 0:
         return None
-    terms = (column(every, name) for name in ("crank_work", "friction_loss", "damping_loss", "energy_change"))
+    terms = (column(every, name) for name in ("drive_work", "friction_loss", "damping_loss", "energy_change"))
     work, friction, damping, change = (one.mean if one else math.nan for one in terms)
     scene = slideway.scene(result)
     if scene["mechanism"]["kind"] == "free_slider" or drive_kind(scene) == "free":
@@ -117,7 +117,7 @@ def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
     if terms is None:
         if column(every, "energy_residual") is not None:
             return Verdict("none", "No energy audit", ["No member finished, so there is nothing to audit."])
-        wanted = "energy_residual, crank_work, friction_loss and damping_loss"
+        wanted = "energy_residual, drive_work, friction_loss and damping_loss"
         return Verdict(
             "none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."]
         )
@@ -164,7 +164,7 @@ def _of_conserving(terms: Balance, why: str) -> Verdict:
     ]
     if math.isnan(part) or (part > CLEAN and not terms.complete):
         unknown = (
-            "Whether that is much cannot be said without the drive's work and the losses; add crank_work, friction_loss and "
+            "Whether that is much cannot be said without the drive's work and the losses; add drive_work, friction_loss and "
             "damping_loss to study.quantities."
         )
         return Verdict("none", f"Residual {joules(terms.residual)}", [*found, unknown])

@@ -29,7 +29,7 @@ def of(law: str, residual: float, worst: float | None = None, **others: float) -
 
 
 def test_the_conservative_law_is_said_to_keep_energy() -> None:
-    found = of("conservative", 2e-8, crank_work=0.01)
+    found = of("conservative", 2e-8, drive_work=0.01)
     assert found.grade == "good"
     assert found.headline == "Energy is kept to 2 ppm"
     assert "makes no energy" in " ".join(found.sentences)
@@ -37,20 +37,20 @@ def test_the_conservative_law_is_said_to_keep_energy() -> None:
 
 
 def test_much_residual_of_the_conservative_law_is_the_methods() -> None:
-    found = of("conservative", 0.002, crank_work=0.02)
+    found = of("conservative", 0.002, drive_work=0.02)
     assert found.grade == "bad"
     assert "10 %" in found.headline
     assert "error of the integration" in " ".join(found.sentences)
 
 
 def test_a_bad_member_shows_though_the_mean_is_fine() -> None:
-    found = of("conservative", 2e-6, worst=5e-5, crank_work=0.01)
+    found = of("conservative", 2e-6, worst=5e-5, drive_work=0.01)
     assert found.grade == "warn"
     assert found.headline == "Energy is kept to 0.02 % on average, 0.5 % at worst"
 
 
 def test_energy_of_mode_switching_is_called_no_physics() -> None:
-    found = of("paper", 0.01, crank_work=0.04, damping_loss=0.009)
+    found = of("paper", 0.01, drive_work=0.04, damping_loss=0.009)
     words = " ".join(found.sentences)
     assert found.grade == "warn"
     assert found.headline == "The contact law made 25 % of the drive's work"
@@ -62,11 +62,11 @@ def test_energy_of_mode_switching_is_called_no_physics() -> None:
 
 
 def test_the_paper_law_that_hardly_switches_is_not_blamed() -> None:
-    assert of("paper", 1e-9, crank_work=0.04).grade == "good"
+    assert of("paper", 1e-9, drive_work=0.04).grade == "good"
 
 
 def test_a_law_is_called_by_its_name_and_judged_by_what_the_program_says_of_it() -> None:
-    every = [quantity("energy_residual", 2e-8), quantity("crank_work", 0.01)]
+    every = [quantity("energy_residual", 2e-8), quantity("drive_work", 0.01)]
     for result in (scene("kelvin_voigt"), scene("kelvin_voigt", contact_law_switches=0)):
         found = energy.verdict(result, every)
         assert found.grade == "good"
@@ -89,7 +89,7 @@ def test_without_any_scale_nothing_is_judged() -> None:
     found = of("conservative", 3e-6)
     assert found.grade == "none"
     assert "3 µJ" in found.headline
-    assert "crank_work" in " ".join(found.sentences)
+    assert "drive_work" in " ".join(found.sentences)
 
 
 def test_a_free_crank_is_compared_with_what_it_lost() -> None:
@@ -112,7 +112,7 @@ def in_gap(kind: str, residual: float, **others: float) -> energy.Verdict:
 
 
 def test_a_carriage_without_friction_is_compared_with_its_weight() -> None:
-    found = in_gap("carriage", -642e-12, crank_work=638e-12, friction_loss=0.0, damping_loss=0.0)
+    found = in_gap("carriage", -642e-12, drive_work=638e-12, friction_loss=0.0, damping_loss=0.0)
     assert found.grade == "good"
     assert found.headline == "Energy is kept to 3.2 ppm"  # 642e-12 of 2e-4
     assert "the weight's energy across the gap (200 µJ)" in found.sentences[0]
@@ -124,16 +124,16 @@ def test_a_slider_that_turned_over_nothing_yet_is_compared_with_its_weight() -> 
 
 
 def test_much_residual_beside_the_weight_is_bad() -> None:
-    found = in_gap("carriage", 1e-4, crank_work=1e-9, friction_loss=0.0, damping_loss=0.0)
+    found = in_gap("carriage", 1e-4, drive_work=1e-9, friction_loss=0.0, damping_loss=0.0)
     assert found.grade == "bad"
     assert "50 %" in found.headline
 
 
 def test_the_largest_energy_is_the_scale_whatever_it_is() -> None:
-    named = {"crank_work": "the drive's work", "energy_change": "the change of the mechanical energy"}
+    named = {"drive_work": "the drive's work", "energy_change": "the change of the mechanical energy"}
     for name, words in named.items():
         assert f"1 % of {words}" in in_gap("carriage", 1e-5, **{name: 1e-3}).sentences[0]
-    lost = in_gap("carriage", 1e-5, crank_work=1e-9, friction_loss=6e-4, damping_loss=4e-4)
+    lost = in_gap("carriage", 1e-5, drive_work=1e-9, friction_loss=6e-4, damping_loss=4e-4)
     assert "1 % of what friction and damping took" in lost.sentences[0]
 
 

@@ -120,7 +120,7 @@ def test_a_sweep_is_told_column_by_column(page_of: Pages, result_of: Results) ->
 def test_the_audit_of_a_sweep_is_that_of_its_worst_column(page_of: Pages, result_of: Results) -> None:
     with result_of("columns") as result:
         loss = (result.friction_loss + result.damping_loss).values.reshape(4, 3).mean(axis=1)
-        work = np.abs(result.crank_work.values.reshape(4, 3).mean(axis=1))
+        work = np.abs(result.drive_work.values.reshape(4, 3).mean(axis=1))
         worst = np.abs(result.energy_residual.values.reshape(4, 3)).max(axis=1) / np.maximum(loss, work)
         gap = float(result.joint_clearance.values.reshape(4, 3)[worst.argmax(), 0])
     text = page_of("columns").read.text

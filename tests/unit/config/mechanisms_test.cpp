@@ -224,13 +224,13 @@ TEST(SceneMechanisms, HaveTheirQuantitiesAndSeries) {
               "scene.toml:7: crank_torque is no quantity of a carriage; see `slideway list`");
     EXPECT_EQ(asked("scotch_yoke", "rod_angular_velocity"),
               "scene.toml:7: rod_angular_velocity is no quantity of a scotch_yoke; see `slideway list`");
-    EXPECT_EQ(asked("free_slider", "crank_work"),
-              "scene.toml:7: crank_work is no quantity of a free_slider; see `slideway list`");
+    EXPECT_EQ(asked("free_slider", "drive_work"),
+              "scene.toml:7: drive_work is no quantity of a free_slider; see `slideway list`");
     EXPECT_EQ(asked("planar_slider_crank", "mean_apex_force"),
               "scene.toml:7: mean_apex_force is no quantity of a planar_slider_crank; see `slideway list`");
     EXPECT_NE(asked("planar_slider_crank", "roll"), "");
     EXPECT_NE(asked("slider_crank", "crank_angle"), "");
-    for (char const* const name : {"crank_work", "x", "acceleration_top", "peak_channel_acceleration"}) {
+    for (char const* const name : {"drive_work", "x", "acceleration_top", "peak_channel_acceleration"}) {
         EXPECT_EQ(asked("carriage", name), "") << name;
         EXPECT_EQ(asked("scotch_yoke", name), "") << name;
     }

@@ -217,7 +217,7 @@ TEST(ClockedSteps, IntegrateUpToWhereTheyEndEarly) {
     struct Integral { Quantity quantity; int columns; double tolerance = 1e-5; };
     for (auto const& [quantity, columns, tolerance] :
          {Integral{Quantity::mean_normal_force, 1}, Integral{Quantity::mean_apex_force, 8}, Integral{Quantity::rms_crank_torque, 1},
-          Integral{Quantity::crank_work, 1}, Integral{Quantity::friction_loss, 1}, Integral{Quantity::damping_loss, 1},
+          Integral{Quantity::drive_work, 1}, Integral{Quantity::friction_loss, 1}, Integral{Quantity::damping_loss, 1},
           Integral{Quantity::rms_acceleration, 3}, Integral{Quantity::acceleration_area, 2, 1e-3}}) {  // of an absolute value, which has kinks
         for (int column = 0; column < columns; ++column) {
             double largest = 0;

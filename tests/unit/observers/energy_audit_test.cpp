@@ -37,7 +37,7 @@ bool is_unstable(Audit const& audit) { return left_stable_range(audit, smallest)
 
 TEST(EnergyAudit, ResidualIsWhatTheBooksDoNotExplain) {
     Audit audit{};
-    audit.change = 5, audit.crank_work = 7, audit.friction_loss = 1, audit.damping_loss = 2;
+    audit.change = 5, audit.drive_work = 7, audit.friction_loss = 1, audit.damping_loss = 2;
     EXPECT_DOUBLE_EQ(audit.residual(), 1);
     audit.load_work = 3, audit.spring_loss = 4;
     EXPECT_DOUBLE_EQ(audit.residual(), 2);

@@ -125,13 +125,13 @@ TEST(Observer, PeaksAreTheLargestOfStartAndAcceptedSteps) {
 template <Quantity q> constexpr int place = Observer::first_audited + Observer::Places::integral_of<q>;
 constexpr int crank_magnitude = 0, springs = 1;
 static_assert(Observer::first_audited == 2 && Observer::powers == 2 + Observer::audit_integrals);
-static_assert(place<Quantity::crank_work> == 2 && place<Quantity::friction_loss> == 3 && place<Quantity::damping_loss> == 4);
+static_assert(place<Quantity::drive_work> == 2 && place<Quantity::friction_loss> == 3 && place<Quantity::damping_loss> == 4);
 static_assert(place<Quantity::load_work> == 5 && place<Quantity::ground_work> == 6 && place<Quantity::spring_loss> == 7);
 
 TEST(Observer, IntegrandsAreThoseOfTheTable) {
     double values[Observer::integrals];
     Observer::integrands(busy(), values);
-    EXPECT_EQ(values[place<Quantity::crank_work>], 2);
+    EXPECT_EQ(values[place<Quantity::drive_work>], 2);
     EXPECT_EQ(values[place<Quantity::friction_loss>], 3);
     EXPECT_EQ(values[place<Quantity::damping_loss>], 5);
     EXPECT_EQ(values[place<Quantity::mean_normal_force>], 4444 + 6 * 4);
@@ -202,7 +202,7 @@ TEST(ForceRecord, HoldsPeaksMeansAndOnsetsOfEachFace) {
         record.begin_step(0.5);
         record.add_stage(0.5, r);
         record.accept(accepted, h, r);
-        record.see_faces(accepted, r);
+        record.see_faces(accepted, h, r);
         if (accepted) record.begin_next(true, r);
     };
     step(true, 2, with(1, true));    // all but one are met
@@ -210,8 +210,8 @@ TEST(ForceRecord, HoldsPeaksMeansAndOnsetsOfEachFace) {
     step(false, 9, with(99, false)); // not accepted
     step(true, 1, with(2, false));
     Quad<double> const held[] = {{1, 1, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}};
-    record.turn(true, held);
-    record.turn(true, held);
+    record.turn(true, held, with(0, true));
+    record.turn(true, held, with(0, true));
     std::array<double, quantity_columns> row{};
     record.finish(0, 5, everything, row.data());
     auto const value = [&](Quantity q, int column) { return row[static_cast<std::size_t>(quantity_column(q) + column)]; };
@@ -226,6 +226,44 @@ TEST(ForceRecord, HoldsPeaksMeansAndOnsetsOfEachFace) {
     EXPECT_EQ(value(Quantity::peak_friction_force, 0), 9);
     EXPECT_EQ(value(Quantity::peak_rod_force, 0), 15);
     EXPECT_EQ(value(Quantity::peak_crank_pin_force, 0), 3);
+}
+
+/// Flights with a constant acceleration, of which the cubic through both ends is exact: what an apex does that touches less does not count.
+TEST(ForceRecord, CountsOnsetsByTheSpeedAtTheFace) {
+    auto const at = [](double depth, double rate) {
+        ForceReport<double, Report> r{};
+        for (int face = 0; face < face_count; ++face) {
+            r.contact.penetration[face] = face == 1 ? Quad<double>{-1, -2e-4, depth, depth - 1e-5} : Quad<double>{-1, -1, -1, -1};
+            r.forces.approach[face] = face == 1 ? Quad<double>{0, 5, rate, 7} : Quad<double>{0, 0, 0, 0};
+        }
+        return r;
+    };
+    ForceRecord<double> record{};
+    double const h = 1e-3;
+    std::array<double, impact_speed_count> expected{};
+    for (double const speed : {0.0005, 0.00099, 0.00101, 0.0299, 0.0301, 0.05, 0.999, 1.001, 30.0}) {
+        // It meets the face a third of the step after its start.
+        double const a = speed / h, v0 = speed - a * h / 3, d0 = -(speed * h / 3 - a * h * h / 18), v1 = v0 + a * h;
+        record.start(expected == std::array<double, impact_speed_count>{}, at(d0, v0));
+        record.see_faces(true, 1, at(d0, v0));
+        record.see_faces(false, h, at(1, 99));
+        record.see_faces(true, h, at(d0 + v0 * h + a * h * h / 2, v1));
+        std::size_t bin = 0;
+        while (bin + 1 < impact_speed_count && speed >= impact_speed_bins[bin + 1]) ++bin;
+        ++expected[bin];
+    }
+    Quad<double> held[] = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}};
+    record.turn(true, held, at(0, 0));
+    held[1] = {0, 0, 1, 0};
+    record.turn(true, held, at(0, 0.2));  // held from here on
+    ++expected[5];
+    std::array<double, quantity_columns> row{};
+    record.finish(0, 5, everything, row.data());
+    for (std::size_t bin = 0; bin < impact_speed_count; ++bin) {
+        EXPECT_EQ(row[static_cast<std::size_t>(quantity_column(Quantity::impact_speeds)) + impact_speed_count + bin], expected[bin]) << bin;
+        EXPECT_EQ(row[static_cast<std::size_t>(quantity_column(Quantity::impact_speeds)) + bin], 0);
+    }
+    EXPECT_EQ(row[static_cast<std::size_t>(quantity_column(Quantity::face_onsets)) + 1], 10);
 }
 
 TEST(ForceRecord, SeriesOfForcesAreInTheOrderOfTheTable) {
@@ -247,10 +285,10 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     watched.step(1, with_energy(50), {}, first);
     watched.step(3, with_energy(102.5), {}, second);
     watched.finish(4);
-    double const work = 7 * (place<Quantity::crank_work> + 1), friction = 7 * (place<Quantity::friction_loss> + 1),
+    double const work = 7 * (place<Quantity::drive_work> + 1), friction = 7 * (place<Quantity::friction_loss> + 1),
                  damping = 7 * (place<Quantity::damping_loss> + 1), loads = 7 * (place<Quantity::load_work> + 1);
     double const ground = 7 * (place<Quantity::ground_work> + 1), springs = 7 * (place<Quantity::spring_loss> + 1);
-    EXPECT_EQ(watched(Quantity::crank_work), work);
+    EXPECT_EQ(watched(Quantity::drive_work), work);
     EXPECT_EQ(watched(Quantity::friction_loss), friction);
     EXPECT_EQ(watched(Quantity::damping_loss), damping);
     EXPECT_EQ(watched(Quantity::load_work), loads);

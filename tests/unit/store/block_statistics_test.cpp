@@ -119,7 +119,7 @@ TEST(BlockStatistics, OrderAndPartsLeaveNoTrace) {
 TEST(BlockStatistics, RefusesWhatDoesNotBelong) {
     BlockStatistics statistics = statistics_of(0, 10);
     EXPECT_THROW(statistics.merge(statistics_of(9, 10)), FileError);
-    EXPECT_THROW(statistics.merge(BlockStatistics({selection_of(Quantity::crank_work), {}})), FileError);
+    EXPECT_THROW(statistics.merge(BlockStatistics({selection_of(Quantity::drive_work), {}})), FileError);
 }
 
 TEST(BlockStatistics, DamagedBytesAreTold) {

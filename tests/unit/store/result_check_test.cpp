@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include "host/base/error.hpp"
+#include "host/store/result_layout.hpp"
 #include "tests/support/output_fixture.hpp"
 
 namespace slideway::result_check_test {
@@ -69,9 +70,9 @@ int group_of(int file) {
     return group;
 }
 
-TEST_F(Sealed, IsIntactAndOfTheSecondFormat) {
+TEST_F(Sealed, IsIntactAndOfTheThirdFormat) {
     SealCheck const found = check_result(path());
-    EXPECT_EQ(found.version, 2);
+    EXPECT_EQ(found.version, 3);
     EXPECT_TRUE(found.intact());
     EXPECT_EQ(found.foreign, "");
     EXPECT_EQ(found.damage(), "");
@@ -178,10 +179,10 @@ TEST_F(Sealed, TellsChangesOfNumbers) {
 }
 
 TEST_F(Sealed, OfANewerFormatIsRefused) {
-    int const three = 3;
-    edit([&](int f) { put(nc_put_att_int(f, NC_GLOBAL, "format_version", NC_INT, 1, &three)); });
-    EXPECT_NE(refusal().find(": is of format 3, and slideway "), std::string::npos) << refusal();
-    EXPECT_NE(refusal().find("reads formats 1 to 2"), std::string::npos) << refusal();
+    int const four = 4;
+    edit([&](int f) { put(nc_put_att_int(f, NC_GLOBAL, "format_version", NC_INT, 1, &four)); });
+    EXPECT_NE(refusal().find(": is of format 4, and slideway "), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find("reads formats 1 to 3"), std::string::npos) << refusal();
     EXPECT_EQ(refusal().find('\n'), std::string::npos);
 }
 
@@ -247,6 +248,21 @@ TEST(FirstFormat, IsRead) {
     EXPECT_EQ(found.payload, "26acfe69637576dd");  // as the program that wrote it said
     EXPECT_EQ(found.metadata, "");
     EXPECT_TRUE(found.intact());
+}
+
+TEST(SecondFormat, IsReadUnderTheNamesOfNow) {
+    std::string const file = std::string(SLIDEWAY_TEST_DATA) + "/formats/result_2.nc";
+    SealCheck const found = check_result(file);
+    EXPECT_EQ(found.version, 2);
+    EXPECT_EQ(found.payload, "6d4794e08e9d756b");  // as the program that wrote it said
+    EXPECT_TRUE(found.intact());
+    ResultReader const results(file);
+    EXPECT_FALSE(results.has("crank_work"));
+    EXPECT_EQ(results.values("drive_work").size(), 6u);
+    EXPECT_EQ(results.values("drive_work"), results.column("drive_work", 0));
+    std::vector<std::string> names;
+    for (QuantityColumn const& column : stored_columns(results)) names.push_back(column.name());
+    EXPECT_EQ(names, (std::vector<std::string>{"peak_normal_force", "drive_work"}));
 }
 
 TEST_F(Sealed, ThatIsNoFileIsRefusedAtOnce) {

@@ -273,12 +273,12 @@ TEST_F(ToleranceReportOf, AnotherScenesResultIsRefused) {
         EXPECT_THROW(tolerance_report(ResultView(file), scene(DesignKind::mc, 1019)), FileError);
         EXPECT_NO_THROW(tolerance_report(ResultView(file), scene(DesignKind::mc, 1020)));
         Scene study = scene(DesignKind::mc, 1020);
-        study.limits = {limit("crank_work", "", 0, 1)};
+        study.limits = {limit("drive_work", "", 0, 1)};
         try {
             tolerance_report(ResultView(file), study);
-            FAIL() << "crank_work is not there";
+            FAIL() << "drive_work is not there";
         } catch (FileError const& error) {
-            EXPECT_NE(std::string(error.what()).find("has no crank_work"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("has no drive_work"), std::string::npos) << error.what();
         }
     }
     members[3].number = members[11].number;

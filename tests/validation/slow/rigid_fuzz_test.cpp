@@ -47,7 +47,7 @@ Found search(std::size_t count, double most_friction, Parts const& parts, Draws 
             found.spent += status == Status::max_steps;
             found.others += !ended && status != Status::contact_domain && status != Status::max_steps;
             double const lost = r.value(i, Quantity::friction_loss) + r.value(i, Quantity::damping_loss);
-            double const scale = std::abs(r.value(i, Quantity::crank_work)) + std::abs(r.value(i, Quantity::energy_change));
+            double const scale = std::abs(r.value(i, Quantity::drive_work)) + std::abs(r.value(i, Quantity::energy_change));
             // Rounding is all that a slider which scarcely moved has gained or lost.
             double const start = members[i].slider_mass * (members[i].vy * members[i].vy + members[i].vz * members[i].vz) / 2;
             bool const made = ended && lost < -1e-6 * scale && lost < -1e-10 * start;
