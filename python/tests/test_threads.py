@@ -12,7 +12,7 @@ import pytest
 from conftest import slow
 import slideway
 
-CALLS = int(os.environ.get("SLIDEWAY_THREAD_CALLS", "24"))
+CALLS = int(os.environ.get("SLIDEWAY_THREAD_CALLS", "16"))
 
 SCENE: dict[str, Any] = {
     "schema": 1, "contact": {"law": "paper"}, "study": {"kind": "ensemble", "members": 3, "duration": "0.2 ms", "samples": 9, "quantities": ["peak_tilt", "y"],

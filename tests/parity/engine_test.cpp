@@ -75,7 +75,7 @@ void expect_same_member(testing::EnsembleResult const& a, std::size_t i, std::si
 class EngineParity : public ::testing::TestWithParam<PartsCase> {};
 
 TEST_P(EngineParity, EveryIsaWithFmaGivesTheSameBits) {
-    auto const members = testing::varied_members(37, GetParam().parts);
+    auto const members = testing::varied_members(21, GetParam().parts);
     auto const o = engine_options(GetParam().parts);
     auto const reference = testing::run(Isa::scalar, o, members);
     EXPECT_GT(reference.value(0, Quantity::contact_onsets), 0) << "the members must meet the way";
@@ -89,7 +89,7 @@ TEST_P(EngineParity, EveryIsaWithFmaGivesTheSameBits) {
 }
 
 TEST_P(EngineParity, AMemberAloneGivesTheSameBitsAsInAnyLane) {
-    auto const members = testing::varied_members(19, GetParam().parts);
+    auto const members = testing::varied_members(11, GetParam().parts);
     auto const o = engine_options(GetParam().parts);
     std::size_t const samples = o.sample_times.size();
     for (Isa const isa : all_isas()) {
@@ -109,7 +109,7 @@ TEST_P(EngineParity, AMemberAloneGivesTheSameBitsAsInAnyLane) {
 }
 
 TEST_P(EngineParity, ABadNeighbourChangesNothing) {
-    auto const good = testing::varied_members(15, GetParam().parts);
+    auto const good = testing::varied_members(11, GetParam().parts);
     auto const o = engine_options(GetParam().parts);
     for (Isa const isa : all_isas()) {
         if (!is_supported(isa)) continue;

@@ -122,10 +122,11 @@ TEST_P(MethodParity, BitsDependOnTheMemberAlone) {
     EXPECT_LT(finished, 80u) << "some members must fail";
     EXPECT_EQ(stiff > 0, GetParam() == Method::automatic || GetParam() == Method::ros34pw2);
     for (Isa const isa : testing::supported_isas()) {
-        for (std::size_t const block : {std::size_t(1), std::size_t(7), std::size_t(64), std::size_t(512)}) {
+        for (std::size_t const block : {std::size_t(1), std::size_t(7), std::size_t(512)}) {
             if (isa == Isa::scalar && block != 512) continue;
             for (auto const& order : {forwards, backwards}) {
-                if (block == 1 && order == backwards) continue;  // the same blocks
+                // The same blocks, and a lane that is alone in either order (the next test has another of its members).
+                if (order == backwards && (block == 1 || isa == Isa::scalar)) continue;
                 auto const got = outcomes(isa, GetParam(), members, order, block);
                 for (std::size_t i = 0; i < members.size(); ++i) {
                     EXPECT_TRUE(same(reference[i], got[i])) << name_of(isa) << " member " << i << ", blocks of "
@@ -147,7 +148,9 @@ TEST_P(MethodParity, TheOrderInWhichABlockTakesItsMembersChangesNothing) {
         for (std::uint32_t i = 0; i < count; ++i) dearest[i] = i, shuffled[i] = 31 * i % count;
         std::ranges::stable_sort(dearest, std::greater{}, [&](auto i) { return reference[i].record.rhs_evaluations; });
         std::vector<std::uint32_t> const cheapest(dearest.rbegin(), dearest.rend());
-        for (auto const& order : {dearest, cheapest, shuffled}) {
+        std::vector<std::vector<std::uint32_t>> orders{shuffled};
+        if (lanes_of(isa) > 1) orders.insert(orders.end(), {dearest, cheapest});  // a lane alone has no neighbours
+        for (auto const& order : orders) {
             auto const got = outcomes_taken(isa, GetParam(), members, order);
             for (std::size_t i = 0; i < members.size(); ++i) {
                 EXPECT_TRUE(same(reference[i], got[i])) << name_of(isa) << " member " << i << ", first " << order[0];

@@ -35,19 +35,20 @@ protected:
     }
 
     /// The motor of docs/extending.md in the folder `own`.  It takes long to compile: the first test that asks does it for all of a call of
-    /// scripts/test.sh, or for this version of the kernels; example.sh and Python's test_modules.py among them.
-    void provide_motor() const {
+    /// scripts/test.sh, or for this version of the kernels; example.sh and Python's test_modules.py among them.  They all ask for the widest
+    /// instruction set; another is compiled for one test alone.
+    void provide_motor(std::vector<std::string> const& isas = {best()}) const {
         namespace fs = std::filesystem;
         fs::path const cache = fs::path(SLIDEWAY_TEST_RESULTS) / "cache", common = cache / "slideway/modules";
         fs::create_directories(common);
         FileLock const alone(common / "lock", FileLock::Kind::alone, FileLock::Wait::yes);
         setenv("XDG_CACHE_HOME", cache.c_str(), 1);
-        Outcome const outcome = run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "--isa", fmt::format("{}", fmt::join(best_and_scalar(), ","))});
+        Outcome const outcome = run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "--isa", fmt::format("{}", fmt::join(isas, ","))});
         fs::path const modules = user_module_folder();
         setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         fs::create_directory(path("own"));
-        for (std::string const& isa : best_and_scalar()) {
+        for (std::string const& isa : isas) {
             std::string const name = fmt::format("slideway_mechanism_motor_yoke_{}.so", isa);
             fs::copy(modules / name, path("own") / name);
         }

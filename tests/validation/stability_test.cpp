@@ -234,7 +234,7 @@ TEST(Scenes, AreNeverAccused) {
                 o.settings.end_time = std::min(o.settings.end_time, 0.05);
                 o.quantities = scene.quantities | audit;
                 std::vector<Inputs> members;
-                for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scene.members, 16); ++i) {
+                for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scene.members, 8); ++i) {
                     members.push_back(member_inputs(scene, i));
                 }
                 auto const ended = count_ends(testing::run(best_isa(), o, members));
