@@ -53,6 +53,11 @@ constexpr LoadNumber numbers[] = {
     {ground_motion, "scale_x", "1", "what the ground's acceleration along X is multiplied by", at<&Load::force, 0>, any, 1},
     {ground_motion, "scale_y", "1", "what the ground's acceleration along Y is multiplied by", at<&Load::force, 1>, any, 1},
     {ground_motion, "scale_z", "1", "what the ground's acceleration along Z is multiplied by", at<&Load::force, 2>, any, 1, false},
+
+    {film, "viscosity", "Pa s", "dynamic viscosity of the lubricant between slider and way", at<&Load::viscosity>, positive, 0, false},
+    {film, "least_gap", "m", "mean gap of a face below which its film becomes no thinner: roughness", at<&Load::least_gap>, positive, 0, false},
+    {film, "cavitation_pressure", "Pa", "how far the film's pressure falls below the ambient one before it breaks; 0: it never pulls",
+     at<&Load::cavitation_pressure>, not_negative, 0, false},
 };
 
 using Type = Setting::Type;

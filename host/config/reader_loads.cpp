@@ -1,4 +1,4 @@
-// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion]: forces and torques, constant, by a table, or by where the slider is.
+// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion], [film]: forces and torques, constant, by a table, or by where the slider is.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -151,6 +151,7 @@ public:
             case LoadKind::spring: read_spring(); break;
             case LoadKind::stop: read_stop(); break;
             case LoadKind::ground_motion: return read_ground();
+            case LoadKind::film: read_film(); break;
         }
         return {std::move(given_)};
     }
@@ -214,6 +215,11 @@ private:
         require("blocks", "which way the slider cannot go on", "add blocks = \"+x\", or \"-x\"");
         require("stiffness", "how far the stop gives way", "add stiffness = \"1e7 N/m\"");
         given_.load.side = choice("blocks", stop_sides) == 0 ? 1 : -1;
+    }
+
+    void read_film() {
+        require("viscosity", "how strongly the film damps", "add viscosity = \"0.1 Pa s\"");
+        require("least_gap", "how thin roughness lets the film become", "add least_gap = \"1 um\"");
     }
 
     /// A load for each of the columns ax, ay, az that the table has.
@@ -326,7 +332,7 @@ std::vector<GivenLoad> given_loads(Reading& reading) {
         for (GivenLoad& load : LoadReader(node, kind, reading).read()) all.push_back(std::move(load));
     };
     MechanismInfo const& mechanism = info(reading.scene.parts.mechanism);
-    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion}) {
+    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion, LoadKind::film}) {
         Node const* const table = reading.given(table_of(kind));
         if (table == nullptr) continue;
         if (module_of(reading.scene.parts.mechanism) != nullptr) {
@@ -371,7 +377,7 @@ void read_loads(Reading& reading) {
             if (loads->keys().size() == most_load_numbers) {
                 Node const* const node = reading.given(name);
                 refuse(node != nullptr ? *node : *reading.given(load.row.name),
-                       {"all loads, springs and stops of a scene and the ground's motion have sixteen numbers at most together", "use fewer"});
+                       {"all loads, springs and stops of a scene, the ground's motion and the film have sixteen numbers at most together", "use fewer"});
             }
             int const place = number->place(load.load) = loads->add_key(std::move(name), *number);
             scene.inputs.*load_inputs[place] = number->preset;

@@ -89,7 +89,8 @@ std::string load_choices(Load const& load) {
                    (on_crank ? std::string() : fmt::format("frame = \"{}\"\n", load_frames[load.turns_with_slider ? 1 : 0]));
         case LoadKind::spring: return fmt::format("along = \"{}\"\n", spring_directions[load.along ? 1 : 0]);
         case LoadKind::stop: return fmt::format("blocks = \"{}\"\n", stop_sides[load.side > 0 ? 0 : 1]);
-        case LoadKind::ground_motion: break;
+        case LoadKind::ground_motion:
+        case LoadKind::film: break;
     }
     return {};
 }

@@ -118,6 +118,8 @@ constexpr KeyRule rows[] = {
     {mechanism, "contact.law", [](R r) { return rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, excludes,
      "the contacts of a {mechanism} give way", "use another law, or mechanism.kind = {rigid_mechanisms}"},
     {mechanism, "way", [](R r) { return !spatial(r); }, foreign},
+    {mechanism, "film", [](R r) { return !spatial(r); }, foreign},
+    {mechanism, "film", rigid, excludes, "the equations of rigid contacts know no film", "use another contact.law, or remove it"},
     {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, foreign},
     {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r); }, excludes,
      "the corners of a {mechanism} have one law", "remove it, or use \"rigid\""},

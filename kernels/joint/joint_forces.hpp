@@ -19,7 +19,7 @@ template <class Real> struct JointForces {
     Real pv[face_count];        // Σ F V/A: pressure times sliding speed, its mean over the face [W/m²]
     Real pressure[face_count];  // Σ F/A [Pa]
     Vec3<Real> friction;        // on the slider, along the way's axes [N]
-    Vec3<Real> contact;         // of the way on the slider, along the axes of the ground [N]
+    Vec3<Real> contact;         // of the way on the slider, oil film included, along the axes of the ground [N]
     Vec3<Real> rod;             // of the rod on the slider [N]; 0 without a rod
     Vec3<Real> crank_pin;       // of the crank pin on the rod [N]
 

@@ -26,6 +26,7 @@ enum class LoadKind {
     spring,         // from a point of the slider to one of the ground, or along X alone
     stop,           // pushes the slider back from a place along X
     ground_motion,  // acceleration of the ground
+    film,           // of lubricant, between the slider and its way
 };
 
 /// Places are those of numbers among Inputs::load_a …; 0 where there is none.
@@ -53,6 +54,10 @@ struct Load {
     int dissipation = none;              // of a stop [s/m]: its stiffness times 1 + this times the speed of the approach
     bool along = false;                  // a spring that has its force along X alone, and its length
     double side = 1;                     // of a stop: it blocks the way to larger x; −1 to smaller
+    // of a film
+    int viscosity = none;            // [Pa s]
+    int least_gap = none;            // a narrower one counts as this [m]
+    int cavitation_pressure = none;  // how far below the ambient pressure it goes before it breaks [Pa]
 };
 
 inline constexpr int most_load_numbers = 16;  // of all loads of a scene
@@ -61,6 +66,13 @@ struct LoadList {
     Load const* loads = nullptr;  // [count]
     int count = 0;
 
+    /// The film, of which there is at most one; nullptr where there is none.
+    constexpr Load const* film() const {
+        for (int i = 0; i < count; ++i) {
+            if (loads[i].kind == LoadKind::film) return &loads[i];
+        }
+        return nullptr;
+    }
     friend bool operator==(LoadList const&, LoadList const&) = default;
 };
 

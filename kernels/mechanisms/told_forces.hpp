@@ -2,6 +2,7 @@
 
 #include "kernels/conditions.hpp"
 #include "kernels/joint/joint_forces.hpp"
+#include "kernels/joint/oil_film.hpp"
 #include "kernels/joint/way.hpp"
 #include "kernels/loads/load_numbers.hpp"
 #include "kernels/math/trigonometry.hpp"
@@ -55,6 +56,7 @@ SLIDEWAY_NOINLINE void tell_forces(Real t, Real const* s, [[maybe_unused]] Real 
     Vec3<Real> const position{report.x, s[0], s[1]}, velocity{report.vx, s[2], s[3]};
     auto const motion = joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
     forces.tell(motion, report.contact, p.joint, block.friction);
+    if (block.loads.count > 0) forces.contact = forces.contact + OilFilm<Real>::of(block.loads, p.load, motion, p.joint.geometry).wrench.force;
     forces.contact = to_inertial(block.misaligned_way, forces.contact, way);
     forces.rod = forces.crank_pin = {zero, zero, zero};
     if constexpr (has_pins<Mechanism>()) {

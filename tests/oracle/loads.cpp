@@ -84,6 +84,7 @@ LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, M
     LoadSum sum;
     for (int i = 0; i < parts.loads.count; ++i) {
         slideway::Load const& load = parts.loads.loads[i];
+        if (load.kind == slideway::LoadKind::film) continue;  // film_loads has it
         Real factor = load.scale < 0 ? Real(1) : number(load.scale);
         if (load.over != slideway::LoadArgument::nothing) factor *= table_motion(load.table, argument_of(load.over, place)).value;
         if (load.kind == slideway::LoadKind::ground_motion) {
