@@ -155,7 +155,7 @@ using Block = BlockOf<Inputs>;
 /// Everything one state tells, as the golden tables list it (model.md 11).
 struct ProbeResult {
     double derivative[most_states];  // of the mechanism's state
-    double power_crank, power_friction, power_damping, power_load, power_ground, loss_springs;  // [W]
+    double power_crank, power_friction, power_damping, power_load, power_ground, loss_springs, loss_film;  // [W]
     double penetration_y[8], penetration_z[8];          // [m], Y and Z faces, P1…P8
     double normal_force_y[8], normal_force_z[8];        // [N]
     int surfaces, lines, points;

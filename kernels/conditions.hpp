@@ -33,7 +33,7 @@ template <class Laws> struct Conditions {
           remembers(remembers_of(parts)),
           continuous(of_law.continuous() && !remembers),
           loads(parts.loads),
-          way_profile(parts.loads.has(LoadKind::way_profile) || parts.loads.has(LoadKind::way_ends)),
+          way_profile(parts.loads.find(LoadKind::way_profile) != nullptr || parts.loads.find(LoadKind::way_ends) != nullptr),
           drive(parts.drive) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.

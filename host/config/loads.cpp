@@ -58,6 +58,11 @@ constexpr LoadNumber numbers[] = {
 
     {way_ends, "from", "m", "x at which the way begins", at<&Load::from>, any, 0, false},
     {way_ends, "to", "m", "x at which the way ends", at<&Load::to>, any, 0, false},
+
+    {film, "viscosity", "Pa s", "dynamic viscosity of the lubricant between slider and way", at<&Load::viscosity>, positive, 0, false},
+    {film, "least_gap", "m", "mean gap of a face below which its film becomes no thinner: roughness", at<&Load::least_gap>, positive, 0, false},
+    {film, "cavitation_pressure", "Pa", "how far the film's pressure falls below the ambient one before it breaks; 0: it never pulls",
+     at<&Load::cavitation_pressure>, not_negative, 0, false},
 };
 
 using Type = Setting::Type;

@@ -1,4 +1,4 @@
-// [load.<name>], [spring.<name>], [stop.<name>] and [ground_motion]: what acts on a mechanism beside its weight, its contacts and its drive
+// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion] and [film]: what acts on a mechanism beside its weight, its contacts and its drive
 // (docs/model.md 14).  And [way_profile.<name>] and [way_ends]: how the faces of its way run, and how far (docs/model.md 18).
 #pragma once
 
@@ -19,8 +19,8 @@ struct Node;
 struct Reading;
 struct Setting;
 
-/// Tables of loads in a scene, in the order of LoadKind.  Of all but the motion of the ground and the way's ends a scene has as many as it names.
-inline constexpr std::string_view load_tables[] = {"load", "spring", "stop", "ground_motion", "way_profile", "way_ends"};
+/// Tables of loads in a scene, in the order of LoadKind.
+inline constexpr std::string_view load_tables[] = {"load", "spring", "stop", "ground_motion", "way_profile", "way_ends", "film"};
 constexpr std::string_view table_of(LoadKind kind) { return load_tables[static_cast<int>(kind)]; }
 constexpr bool has_named_loads(std::string_view table) { return table == "load" || table == "spring" || table == "stop" || table == "way_profile"; }
 

@@ -1,4 +1,5 @@
-// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion]: forces and torques, constant, by a table, or by where the slider is.  And [way_profile.<name>], [way_ends].
+// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion], [film]: forces and torques, constant, by a table, or by where the slider is.  And
+// [way_profile.<name>], [way_ends].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -157,6 +158,7 @@ public:
             case LoadKind::ground_motion: return read_ground();
             case LoadKind::way_profile: read_profile(); break;
             case LoadKind::way_ends: read_ends(); break;
+            case LoadKind::film: read_film(); break;
         }
         return {std::move(given_)};
     }
@@ -249,6 +251,11 @@ private:
         Node const *const from = node_.find("from"), *const to = node_.find("to");
         if (from == nullptr && to == nullptr) refuse_missing(node_, node_.name + ".to", "where the way ends", "add to = 0.3, or from, where it begins");
         if (from != nullptr && to != nullptr && !(read_number(*from, "m") < read_number(*to, "m"))) refuse(*to, {"the way ends where it begins, or before", "use a larger x than that of from"});
+    }
+
+    void read_film() {
+        require("viscosity", "how strongly the film damps", "add viscosity = \"0.1 Pa s\"");
+        require("least_gap", "how thin roughness lets the film become", "add least_gap = \"1 um\"");
     }
 
     /// A load for each of the columns ax, ay, az that the table has.
@@ -362,7 +369,7 @@ std::vector<GivenLoad> given_loads(Reading& reading) {
         for (GivenLoad& load : LoadReader(node, kind, reading).read()) all.push_back(std::move(load));
     };
     MechanismInfo const& mechanism = info(reading.scene.parts.mechanism);
-    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion, LoadKind::way_profile, LoadKind::way_ends}) {
+    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion, LoadKind::way_profile, LoadKind::way_ends, LoadKind::film}) {
         Node const* const table = reading.given(table_of(kind));
         if (table == nullptr) continue;
         if (module_of(reading.scene.parts.mechanism) != nullptr) {
@@ -407,7 +414,7 @@ void read_loads(Reading& reading) {
             if (loads->keys().size() == most_load_numbers) {
                 Node const* const node = reading.given(name);
                 refuse(node != nullptr ? *node : *reading.given(load.row.name),
-                       {"all loads, springs and stops of a scene and the ground's motion have sixteen numbers at most together", "use fewer"});
+                       {"all loads, springs and stops of a scene, the ground's motion and the film have sixteen numbers at most together", "use fewer"});
             }
             int const place = number->place(load.load) = loads->add_key(std::move(name), *number);
             scene.inputs.*load_inputs[place] = number->preset;

@@ -94,7 +94,8 @@ std::string load_choices(Load const& load) {
             return fmt::format("faces = \"{}\"\n", profiled_faces[named]);
         }
         case LoadKind::ground_motion:
-        case LoadKind::way_ends: break;
+        case LoadKind::way_ends:
+        case LoadKind::film: break;
     }
     return {};
 }

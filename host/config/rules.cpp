@@ -17,6 +17,7 @@ using R = Reading const&;
 
 bool rigid(R r) { return r.scene.parts.rigid; }
 bool spatial(R r) { return info(r.scene.parts.mechanism).spatial; }
+bool is_shaped(R r) { return r.given("way_profile") != nullptr || r.given("way_ends") != nullptr; }
 bool turns(R r) { return std::isfinite(drive_period(r.scene.parts, r.scene.inputs)); }
 bool to_end(R r) { return runs_to_end(r.scene.study); }
 bool is_sweep(R r) { return r.scene.study == StudyKind::sweep; }
@@ -122,6 +123,9 @@ constexpr KeyRule rows[] = {
     {mechanism, "way_ends", [](R r) { return !spatial(r); }, foreign},
     {mechanism, "way_ends", rigid, excludes, "rigid contacts are with a way without ends", "use another contact.law, or remove it"},
     {mechanism, "way_profile", rigid, excludes, "rigid contacts are with straight faces", "use another contact.law, or remove it"},
+    {mechanism, "film", [](R r) { return !spatial(r); }, foreign},
+    {mechanism, "film", rigid, excludes, "the equations of rigid contacts know no film", "use another contact.law, or remove it"},
+    {mechanism, "film", is_shaped, excludes, "the film is reckoned between straight faces without ends", "remove it, or [way_profile] and [way_ends]"},
     {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, foreign},
     {mechanism, "contact.law", [](R r) { return !spatial(r) && !rigid(r); }, excludes,
      "the corners of a {mechanism} have one law", "remove it, or use \"rigid\""},

@@ -20,7 +20,7 @@ template <class Real> struct JointForces {
     Real pressure[face_count];  // Σ F/A [Pa]
     Quad<Real> approach[face_count], sliding[face_count];  // of the apices δ' and V [m/s]
     Vec3<Real> friction;        // on the slider, along the way's axes [N]
-    Vec3<Real> contact;         // of the way on the slider, along the axes of the ground [N]
+    Vec3<Real> contact;         // of the way on the slider, oil film included, along the axes of the ground [N]
     Vec3<Real> torque;          // of that about the centre of the slider's hole, likewise [N m]
     Vec3<Real> rod;             // of the rod on the slider [N]; 0 without a rod
     Vec3<Real> crank_pin;       // of the crank pin on the rod [N]

@@ -232,7 +232,7 @@ private:
             pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters, s.contacts.memory);
             if constexpr (Model::has_linearisation) {
                 if (switching && kind == Kind::explicit_pair) {
-                    MethodChoice<Model, Real>::look_for_stiffness(pack_, pack_.busy & (pattern_ > Real(0.5)));
+                    MethodChoice<Model, Real>::look_for_stiffness(pack_, pack_.busy & ((pattern_ > Real(0.5)) | mask_of<Real>(pack_.model.has_film())));
                 }
             }
         }

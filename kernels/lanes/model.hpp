@@ -23,6 +23,8 @@ struct ModelDefaults {
     SLIDEWAY_HD static constexpr bool switches() { return false; }
     /// Whether anything acts on it beside weight, contact and drive.
     SLIDEWAY_HD static constexpr bool has_loads() { return false; }
+    /// Whether something stiff acts on it without contact, too.
+    SLIDEWAY_HD static constexpr bool has_film() { return false; }
     /// What steps take as given of the contacts, from here on.
     SLIDEWAY_HD static void hold_contacts(Watching) {}
     /// Components of the state that the drive prescribes, a bit each: neighbours cannot differ in them.

@@ -28,6 +28,7 @@ enum class LoadKind {
     ground_motion,  // acceleration of the ground
     way_profile,    // faces of the way that are not straight
     way_ends,       // where the way begins and ends
+    film,           // of lubricant, between the slider and its way
 };
 
 /// Places are those of numbers among Inputs::load_a …; 0 where there is none.
@@ -57,6 +58,10 @@ struct Load {
     double side = 1;                     // of a stop: it blocks the way to larger x; −1 to smaller
     int faces = 0;                       // of a way's profile: bit i where face i has it, Y+, Y−, Z+, Z−
     int from = none, to = none;          // of a way's ends: x of them [m]
+    // of a film
+    int viscosity = none;            // [Pa s]
+    int least_gap = none;            // a narrower one counts as this [m]
+    int cavitation_pressure = none;  // how far below the ambient pressure it goes before it breaks [Pa]
 };
 
 inline constexpr int most_load_numbers = 16;  // of all loads of a scene
@@ -65,11 +70,12 @@ struct LoadList {
     Load const* loads = nullptr;  // [count]
     int count = 0;
 
-    constexpr bool has(LoadKind kind) const {
+    /// The first of a kind; nullptr where there is none.
+    constexpr Load const* find(LoadKind kind) const {
         for (int i = 0; i < count; ++i) {
-            if (loads[i].kind == kind) return true;
+            if (loads[i].kind == kind) return &loads[i];
         }
-        return false;
+        return nullptr;
     }
     friend bool operator==(LoadList const&, LoadList const&) = default;
 };

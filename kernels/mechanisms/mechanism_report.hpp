@@ -20,6 +20,7 @@ template <class Real> struct MechanismReport {
     Real energy;              // E of model.md 8, potentials of contacts, springs and stops included [J]
     Real load_power = Real(0.0), ground_power = Real(0.0);      // of the loads on slider and crank, and of the ground's motion [W]
     Real spring_loss = Real(0.0), spring_potential = Real(0.0);  // of springs and stops: power of their dampers [W], what they store [J]
+    Real film_loss = Real(0.0);  // power of what the oil film takes [W]
     Real position_error;      // distance of the slider's centre from the ideal mechanism's [m]
     Real rod_spin;            // rod's angular velocity, magnitude [rad/s]
 

@@ -30,7 +30,7 @@ struct PlanarBase {
         info.always = states | selections::of({Series::y, Series::vy});
         info.quantities =
             selections::all_quantities & ~selections::apex_quantities & ~selections::sensor_quantities &
-            ~selections::force_quantities & ~selection_of(Quantity::switching_energy);
+            ~selections::force_quantities & ~selections::of({Quantity::switching_energy, Quantity::film_loss});
         info.keys = groups_of(KeyGroup::slider, KeyGroup::smooth_friction, KeyGroup::planar, KeyGroup::crank, KeyGroup::links, KeyGroup::turning,
                               KeyGroup::drive, KeyGroup::elastic,
                               KeyGroup::hertz, KeyGroup::point_damping, KeyGroup::restitution);

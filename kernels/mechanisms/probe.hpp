@@ -91,6 +91,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             result.power_load = lane(report.load_power, i);
             result.power_ground = lane(report.ground_power, i);
             result.loss_springs = lane(report.spring_loss, i);
+            result.loss_film = lane(report.film_loss, i);
             result.surfaces = static_cast<int>(lane(c.surfaces, i));
             result.lines = static_cast<int>(lane(c.lines, i));
             result.points = static_cast<int>(lane(c.points, i));

@@ -18,7 +18,7 @@ template <class Real> struct SliderLinearisation {
     Real mass_y, mass_z, mass_yz;  // of (vy, vz): m (1 + κκᵀ) [kg]
     Vec3<Real> inertia;            // of ω [kg m²]
     SinCos<Real> roll, yaw;
-    Real touching;  // apex–face pairs in contact
+    Real touching;  // apex–face pairs in contact, and one more where there is an oil film
     bool is_coupled = false;  // where turning moves the pin or the centre of mass, in place of these masses:
     Real coupled_mass[5][5];  // of ν
 

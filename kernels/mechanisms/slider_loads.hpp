@@ -43,7 +43,7 @@ template <class Real> struct SliderLoads {
             LoadNumbers<Real> const numbers(load, p.load, arguments);
             if (load.kind == LoadKind::push) sum.add_push(load, numbers, velocity, turning);
             else if (load.kind == LoadKind::ground_motion) sum.add_ground(numbers.scaled(load.force), velocity, turning, arguments.crank_angle, p);
-            else sum.add_element(load, numbers, position, velocity, turning);
+            else if (load.kind != LoadKind::film) sum.add_element(load, numbers, position, velocity, turning);  // which OilFilm has
         }
         sum.crank_power = sum.crank_torque * crank.velocity;
         Real const of_pin = sum.pin_torque * crank.velocity;

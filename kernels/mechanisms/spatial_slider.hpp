@@ -3,6 +3,7 @@
 #include "kernels/joint/apex.hpp"
 #include "kernels/joint/joint.hpp"
 #include "kernels/joint/joint_gaps.hpp"
+#include "kernels/joint/oil_film.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/offset_slider.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
@@ -75,6 +76,10 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         frame.z_normal = normal(frame.motion.axes.z);
         JointLinearisation<Real, Laws> joint(frame, memory, p.joint, block, out.joint);
         out.touching = joint.fill();
+        if (Load const* const film = block.loads.find(LoadKind::film)) {
+            FilmStiffness<Real>::add(*film, p.load, frame, p.joint.geometry, out.joint);
+            out.touching = out.touching + Real(1.0);
+        }
     }
 
     /// Which apices touch, as a number: members of one pattern have the same work to do.
@@ -144,6 +149,13 @@ private:
         Joint<Real, Laws, Full, decltype(motion)> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
         auto wrench = joint.wrench(faults.contact_domain);
         if constexpr (loaded) faults.geometry = faults.geometry | motion.has_left;
+        [[maybe_unused]] OilFilm<Real> film;
+        if constexpr (loaded) {
+            JointMotion<Real> seen = motion;  // as Joint's own is not to lie in memory
+            film = OilFilm<Real>::of(block.loads, p.load, seen, p.joint.geometry);
+            wrench.force = wrench.force + film.wrench.force;
+            wrench.torque = wrench.torque + film.wrench.torque;
+        }
         auto force = to_inertial(block.misaligned_way, wrench.force, way);
         [[maybe_unused]] SliderLoads<Real> loads;
         if constexpr (loaded) {
@@ -177,7 +189,10 @@ private:
                 if (is_offset) at.offset.tell(guide, centre, answer, turning, p, block.powers_alone, *report);
             }
             if (!is_offset) guide.tell(centre, turning, force, p, block.powers_alone, *report);
-            if constexpr (loaded) loads.tell(drive, *report);
+            if constexpr (loaded) {
+                loads.tell(drive, *report);
+                report->film_loss = film.loss;
+            }
         }
         return faults;
     }

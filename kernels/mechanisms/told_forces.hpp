@@ -2,6 +2,7 @@
 
 #include "kernels/conditions.hpp"
 #include "kernels/joint/joint_forces.hpp"
+#include "kernels/joint/oil_film.hpp"
 #include "kernels/joint/way.hpp"
 #include "kernels/loads/load_numbers.hpp"
 #include "kernels/math/trigonometry.hpp"
@@ -55,6 +56,11 @@ SLIDEWAY_NOINLINE void tell_forces(Real t, Real const* s, [[maybe_unused]] Real 
     Vec3<Real> const position{report.x, s[0], s[1]}, velocity{report.vx, s[2], s[3]};
     auto const motion = motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
     forces.tell(motion, report.contact, p.joint, block.friction);
+    if (block.loads.count > 0) {
+        auto const film = OilFilm<Real>::of(block.loads, p.load, motion, p.joint.geometry).wrench;
+        forces.contact = forces.contact + film.force;
+        forces.torque = forces.torque + film.torque;
+    }
     for (auto* const told : {&forces.contact, &forces.torque}) *told = to_inertial(block.misaligned_way, *told, way);
     forces.rod = forces.crank_pin = {zero, zero, zero};
     if constexpr (has_pins<Mechanism>()) {

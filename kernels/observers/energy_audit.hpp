@@ -13,6 +13,7 @@ template <class Real> struct EnergyAudit {
     Real damping_loss;    // D_d
     Real load_work;       // W_l + W_g
     Real spring_loss;     // D_s
+    Real film_loss;       // D_o
     Real turnover;        // ∫(|F_A · v_A| + |power of loads| + |power of the ground|) dt
     Real stored;          // largest potential of contacts, springs and stops
     Real made;            // by the method, not by the law
@@ -20,12 +21,12 @@ template <class Real> struct EnergyAudit {
     Real exchanged;       // Σ |work on the contacts' springs| of the steps
 
     /// ε, what the contact law and the method made (or lost, if negative).
-    SLIDEWAY_FN Real residual() const { return change - drive_work + friction_loss + damping_loss - load_work + spring_loss; }
+    SLIDEWAY_FN Real residual() const { return change - drive_work + friction_loss + damping_loss - load_work + spring_loss + film_loss; }
 };
 
 /// Members whose method left its stable range, by the energy that it made itself; NaN tells it too.  Two signs:
-/// - In sum it made more than a fifth of what contacts, springs and stops damped and stored, plus a fiftieth of what friction burnt and a thousandth of what
-///   crank and loads moved (the error of gliding and of free flight).  Losses of the wrong sign excuse nothing.
+/// - In sum it made more than a fifth of what contacts, springs and stops damped and stored, plus a fiftieth of what friction and the oil film burnt and a thousandth
+///   of what crank and loads moved (the error of gliding and of free flight).  Losses of the wrong sign excuse nothing.
 /// - It does not resolve its contacts: of what went through their springs more than an eighth went astray in the single steps, gains and
 ///   losses alike, and that is more than half of the first bound.
 /// How close runs came to these bounds, and how far beyond unstable ones lie: docs/stability.md.
@@ -33,7 +34,7 @@ template <class Real> struct EnergyAudit {
 template <class Real> SLIDEWAY_FN Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real smallest) {
     Real const zero(0.0);
     Real const contact = (max(zero, audit.damping_loss) + max(zero, audit.spring_loss)) + (audit.stored + smallest);  // in this order NaN stays
-    Real const carried = fma(Real(0.02), max(zero, audit.friction_loss), Real(0.001) * audit.turnover);
+    Real const carried = fma(Real(0.02), max(zero, audit.friction_loss) + max(zero, audit.film_loss), Real(0.001) * audit.turnover);
     Real const bound = fma(Real(0.2), contact, carried);
     auto const balanced = abs(audit.made) <= bound;
     auto const resolved = audit.astray <= max(Real(0.125) * audit.exchanged, Real(0.5) * bound);

@@ -38,7 +38,7 @@ inline constexpr int impact_speed_count = static_cast<int>(std::size(impact_spee
     row(mode_time, counted, mechanism, "s", 4, "mode_class", "time spent in the mode class") \
     row(contact_onsets, counted, mechanism, "1", 1, nullptr, "changes from free flight to contact") \
     row(capped_impacts, counted, mechanism, "1", 1, nullptr, "rigid impacts whose restitution was lowered, as with friction it would have made energy") \
-    row(energy_residual, of_audit, mechanism, "J", 1, nullptr, "energy residual E(t)-E(0)-W-W_l-W_g+D_f+D_d+D_s: energy that the contact law made") \
+    row(energy_residual, of_audit, mechanism, "J", 1, nullptr, "energy residual E(t)-E(0)-W-W_l-W_g+D_f+D_d+D_s+D_o: energy that the contact law made") \
     row(switching_energy, counted, mechanism, "J", 1, nullptr, "sum of the jumps of the contact potential where modes switch, at located switches") \
     row(energy_change, counted, mechanism, "J", 1, nullptr, "mechanical energy E(t)-E(0)") \
     row(drive_work, audited_integral, mechanism, "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage") \
@@ -47,6 +47,7 @@ inline constexpr int impact_speed_count = static_cast<int>(std::size(impact_spee
     row(load_work, audited_integral, mechanism, "J", 1, nullptr, "work of the loads on slider and crank") \
     row(ground_work, audited_integral, mechanism, "J", 1, nullptr, "work of the ground's motion") \
     row(spring_loss, audited_integral, mechanism, "J", 1, nullptr, "loss in the dampers of springs and stops") \
+    row(film_loss, audited_integral, mechanism, "J", 1, nullptr, "loss in the oil film") \
     row(peak_crank_torque, peak, mechanism, "N m", 1, nullptr, "largest magnitude of the drive torque, crank weight included") \
     row(rms_crank_torque, root_mean_square, mechanism, "N m", 1, nullptr, "root mean square of the drive torque, crank weight included") \
     row(peak_position_error, peak, mechanism, "m", 1, nullptr, "largest distance of the slider's centre from the ideal mechanism's") \

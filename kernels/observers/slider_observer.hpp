@@ -21,7 +21,7 @@ public:
     static constexpr int columns = quantity_columns;  // of a member's row
     /// Integrands: |power| of what drives and the contacts' springs' power, of which a law that switches keeps books, then those of the energy audit, of
     /// which those of loads are the last, then those of other quantities.
-    static constexpr int first_audited = 2, audit_integrals = Places::audit_integrals, of_loads = 3;
+    static constexpr int first_audited = 2, audit_integrals = Places::audit_integrals, of_loads = 4;
     static constexpr int integrals = Places::integrals + first_audited;
 
     /// What a quantity is the peak, mean or integral of: a line each.
@@ -37,6 +37,7 @@ public:
         else if constexpr (q == load_work) return r.load_power;
         else if constexpr (q == ground_work) return r.ground_power;
         else if constexpr (q == spring_loss) return r.spring_loss;
+        else if constexpr (q == film_loss) return r.film_loss;
         else if constexpr (q == peak_crank_torque || q == rms_crank_torque) return r.drive_torque;
         else if constexpr (q == peak_position_error || q == rms_position_error) return r.position_error;
         else if constexpr (q == peak_rod_angular_velocity || q == rms_rod_angular_velocity) return r.rod_spin;
@@ -197,8 +198,8 @@ public:
         Real const friction_loss = integral_[place_of<Quantity::friction_loss>];
         Real const damping_loss = integral_[place_of<Quantity::damping_loss>];
         Real const works = integral_[place_of<Quantity::load_work>] + integral_[place_of<Quantity::ground_work>];
-        return {energy_ - start_energy_, drive_work, friction_loss, damping_loss, works, integral_[place_of<Quantity::spring_loss>], integral_[turnover],
-                largest_potential_,      made_,      astray_,       exchanged_};
+        return {energy_ - start_energy_, drive_work, friction_loss, damping_loss, works, integral_[place_of<Quantity::spring_loss>],
+                integral_[place_of<Quantity::film_loss>], integral_[turnover], largest_potential_, made_, astray_, exchanged_};
     }
 
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
@@ -216,7 +217,7 @@ public:
 protected:
     static constexpr int turnover = 0, springs = 1;
     template <Quantity q> static constexpr int place_of = first_audited + Places::template integral_of<q>;
-    static_assert(place_of<Quantity::load_work> == powers - of_loads && place_of<Quantity::spring_loss> == powers - 1);
+    static_assert(place_of<Quantity::load_work> == powers - of_loads && place_of<Quantity::film_loss> == powers - 1);
 
     /// A quantity of one lane.  @param mean 1/t, of the time integrated.
     template <Quantity q> SLIDEWAY_HD double result(int index, int column, double mean) const {
@@ -258,7 +259,7 @@ protected:
         Real const zero(0.0);
         using enum Quantity;
         Real const supplied = (integral[place_of<drive_work>] - integral[place_of<friction_loss>] - integral[place_of<damping_loss>]) +
-                              ((integral[place_of<load_work>] + integral[place_of<ground_work>]) - integral[place_of<spring_loss>]);
+                              ((integral[place_of<load_work>] + integral[place_of<ground_work>]) - (integral[place_of<spring_loss>] + integral[place_of<film_loss>]));
         Real made = fnma(h, supplied, r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
         if (switches) {

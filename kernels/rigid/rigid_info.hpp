@@ -12,11 +12,11 @@ inline constexpr LawInfo rigid_contact{.name = "rigid",
                                        .switches = false,
                                        .groups = groups_of(KeyGroup::restitution)};
 
-/// Quantities that rigid contacts have not: the largest of forces that are impulses, and what follows from it.
+/// Quantities that rigid contacts have not: the largest of forces that are impulses, and what follows from it; and the loss of an oil film, which they know not.
 inline constexpr Selection without_rigid_contact =
     selections::of({Quantity::peak_normal_force, Quantity::peak_apex_force, Quantity::mean_apex_force, Quantity::peak_crank_torque,
                     Quantity::rms_crank_torque, Quantity::switching_energy, Quantity::peak_acceleration, Quantity::rms_acceleration,
-                    Quantity::peak_channel_acceleration, Quantity::acceleration_area}) |
+                    Quantity::peak_channel_acceleration, Quantity::acceleration_area, Quantity::film_loss}) |
     selections::force_quantities;
 
 /// Quantities that they alone have.

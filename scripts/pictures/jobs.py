@@ -103,6 +103,26 @@ def end_stops(root: Path) -> str:
     return as_svg(figure)
 
 
+def oil_film(root: Path) -> str:
+    """How a machine table sinks through its oil, beside the closed form."""
+    length, width, depth, gap, weight = 0.2, 0.06, 0.08, 40e-6, 20 * _g + 1800  # of the scene
+    figure, (ax,) = panels(height=3.0)
+    result = _job(root, "oil_film.toml", "film.viscosity", [0.04, 0.06, 0.08], 3, 301, ["y"])
+    films, dots = np.linspace(0.9999 * gap, 10e-6, 300), np.linspace(0, 3, 13)
+    for row, viscosity, colour in zip(result.y.values, result.film_viscosity.values, colours, strict=False):
+        ax.plot(result.time.values, 1e6 * (gap + row), color=colour, lw=1.4, label=f"{viscosity:g} Pa s")
+        # Pushed by the film below, held by the one above, sheared at both sides.
+        squeeze, sides = viscosity * depth**3 * (length - 0.63 * depth), 2 * viscosity * length * width / gap
+        times = (0.5 * squeeze * (films**-2 - (2 * gap - films) ** -2) + sides * (gap - films)) / weight
+        ax.plot(dots, 1e6 * np.interp(dots, times, films), "o", color=colour, ms=3.5)
+    ax.plot([], [], "o", color=grey, ms=3.5, label="closed form")
+    ax.set_xlim(0, 3)
+    ax.set_ylim(0, 42)
+    ax.legend(frameon=False, title="viscosity", loc="lower left", ncols=2)
+    frame(ax, "time [s]", "film below the table [µm]")
+    return as_svg(figure)
+
+
 def shaken_spring(root: Path) -> str:
     """A slide on a spring on a shaking frame, and the amplitude of its resonance curve."""
     mass, stiffness, damping, turn = 0.8, 800.0, 2.5, 8 * np.pi  # of the scene
@@ -222,4 +242,4 @@ def fit(root: Path) -> str:
     return as_svg(figure)
 
 
-JOBS = {f"job_{make.__name__}": make for make in (pump, press, carriage, end_stops, shaken_spring, leaning_way, overhang, worn_way, export, fit)}
+JOBS = {f"job_{make.__name__}": make for make in (pump, press, carriage, end_stops, oil_film, shaken_spring, leaning_way, overhang, worn_way, export, fit)}

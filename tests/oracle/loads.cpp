@@ -108,7 +108,8 @@ LoadSum load_sum(Inputs const& in, Parts const& parts, LoadPlace const& place, M
     LoadSum sum;
     for (int i = 0; i < parts.loads.count; ++i) {
         slideway::Load const& load = parts.loads.loads[i];
-        if (load.kind == slideway::LoadKind::way_profile || load.kind == slideway::LoadKind::way_ends) continue;
+        using enum slideway::LoadKind;
+        if (load.kind == way_profile || load.kind == way_ends || load.kind == film) continue;  // way_depth, way_place and film_loads have them
         Real factor = load.scale < 0 ? Real(1) : number(load.scale);
         if (load.over != slideway::LoadArgument::nothing) factor *= table_motion(load.table, argument_of(load.over, place)).value;
         if (load.kind == slideway::LoadKind::ground_motion) {

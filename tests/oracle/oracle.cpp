@@ -10,6 +10,7 @@
 #include "laws.hpp"
 #include "loads.hpp"
 #include "mechanism.hpp"
+#include "oil_film.hpp"
 #include "offset_slider.hpp"
 #include "pairs.hpp"
 #include "poses.hpp"
@@ -85,11 +86,15 @@ struct Turning {
         Real const arm = Real(in.crank_length) / 2;
         return in.drive_inertia + (has_crank() ? in.crank_inertia + crank_mass() * arm * arm : 0);
     }
-    /// What is given away is linear in θ''.
+    /// What is given away is linear in θ'': over the difference that θ'' itself makes, or that would be lost in forces that are large.
     template <class Given> Real acceleration(Given const& given, Vector3 const& pin) const {
-        Real const others = motor + load + (pin / 2).cross(crank_mass() * gravity).z();
-        Real const at_rest = given(0), per_unit = given(1) - at_rest;
-        return (others - at_rest) / (inertia() + per_unit);
+        Real const others = motor + load + (pin / 2).cross(crank_mass() * gravity).z(), at_rest = given(0);
+        Real found = 0;
+        for (int i = 0; i < 2; ++i) {
+            Real const unit = 1 + std::abs(found), per_unit = (given(unit) - at_rest) / unit;
+            found = (others - at_rest) / (inertia() + per_unit);
+        }
+        return found;
     }
 };
 
@@ -161,7 +166,8 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     JointLoads const joint = joint_loads(in, parts, slider, impact_speeds);
     LoadPlace const place{turning.angle, t, slider.centre.x(), slider.velocity.x(), turning.speed};
     LoadSum const loads = load_sum(in, parts, place, slider.pose, slider.pose_rate);
-    Vector3 const force = joint.force + loads.force;
+    FilmLoads const film = film_loads(in, parts, slider);
+    Vector3 const force = joint.force + loads.force + film.force;
 
     Real const beta = in.inclination;
     Real const gamma = in.cross_inclination;
@@ -172,7 +178,7 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     Matrix3 const attitude = slider.pose.topLeftCorner<3, 3>();
     Vector3 const& spin = slider.angular_velocity;
     Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
-    Vector3 const torque = joint.torque + loads.torque, gyroscopic = spin.cross(inertia.cwiseProduct(spin));
+    Vector3 const torque = joint.torque + loads.torque + film.torque, gyroscopic = spin.cross(inertia.cwiseProduct(spin));
     Vector3 spin_up = (attitude.transpose() * torque - gyroscopic).cwiseQuotient(inertia);
     auto const on_rod = [&](Kinematics const& k) { return parts.offset_slider ? solve_offset_motion(in, k, felt, force, torque) : solve_motion(in, k, felt, force); };
     auto const guided = [&](std::optional<Real> ax) {
@@ -244,6 +250,7 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     Real const of_crank = loads.crank_torque * turning.speed;
     result.power_load = static_cast<double>(loads.slider_power + of_crank);
     result.loss_springs = static_cast<double>(loads.spring_loss);
+    result.loss_film = static_cast<double>(film.loss);
     if (parts.drive.turns_freely()) {
         result.derivative[10] = state[11];
         result.derivative[11] = static_cast<double>(turning.acceleration);
@@ -277,6 +284,8 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     result.x = static_cast<double>(slider.centre.x());
     result.vx = static_cast<double>(slider.velocity.x());
     report_joint(joint, result);
+    result.film_force = array_of(film.force);
+    result.film_load = static_cast<double>(film.load);
     return result;
 }
 

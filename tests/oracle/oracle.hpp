@@ -30,6 +30,7 @@ struct Result {
     double power_load = 0;                           // of the scene's loads [W]
     double power_ground = 0;                         // of the ground's motion, the crank's own mass left aside [W]
     double loss_springs = 0;                         // of the dampers of springs and stops [W]
+    double loss_film = 0;                            // of the oil film [W]
     double power_friction = 0;                       // loss, -Σ F_t · v_t [W]
     double power_damping = 0;                        // loss, Σ (F - F_elastic) δ' [W]
     std::array<double, 8> pen_y{}, pen_z{};          // δ [m], > 0 in contact
@@ -52,6 +53,8 @@ struct Result {
     Vector pin_force{};             // F_A, on the rod at the crank pin [N]
     Vector rod_force{};             // on the slider at the rod's pin [N]
     Vector contact_force{};         // Σ of the joint, friction included, inertial frame [N]
+    Vector film_force{};            // of the oil film, likewise [N]
+    double film_load = 0;           // Σ of its forces' magnitudes [N]
     Vector normal_force{};          // Σ normal forces, without the way's X, inertial frame [N]
     Vector normal_torque{};         // their torque about the slider's centre, inertial frame [N m]
     double ideal_x = 0;             // of the mechanism without clearance [m]; NaN if it does not reach, or is free

@@ -166,6 +166,22 @@ TEST(Jobs, EndStopsTakeWhatFrictionLeavesThem) {
     EXPECT_NEAR(job.mean("friction_loss"), 0.5 * mass * 0.5 * 0.5 - lost, 1e-6);
 }
 
+TEST(Jobs, OilFilmCarriesItsTableAsReynoldsSays) {
+    double const mass = 20, press = 1800, all = press + mass * weight, viscosity = 0.06, gap = 40e-6, length = 0.2, width = 0.06, depth = 0.08;
+    double const squeeze = viscosity * depth * depth * depth * (length - 0.63 * depth), sides = 2 * viscosity * length * width / gap;
+    for (char const* const seconds : {"0.5", "3"}) {
+        Job const job("oil_film.toml", "--set study.members=2 --set study.verify=0 --set 'study.vary={\"film.viscosity\"={dist=\"const\",value=0.06}}'"
+                                       " --set study.duration=" + std::string(seconds));
+        // The film below pushes and the one above holds; the sides are sheared.
+        double const sunk = job.mean("load_work") / press, below = gap - sunk, above = gap + sunk;
+        double const pushed = 0.5 * squeeze * (1 / (below * below) - 1 / (above * above)) + sides * sunk;
+        EXPECT_NEAR(pushed, all * std::stod(seconds), 1e-5 * pushed);
+        EXPECT_NEAR(job.mean("film_loss"), all * sunk, 1e-5 * all * sunk);
+        EXPECT_NEAR(job.mean("peak_position_error"), sunk, 1e-5 * sunk);
+        EXPECT_EQ(job.mean("contact_onsets"), 0);
+    }
+}
+
 TEST(Jobs, ShakenSpringTakesThePowerOfItsResonanceCurve) {
     auto const alike = [](int seconds) {
         return "--set study.members=4 --set study.verify=0 --set study.duration=" + std::to_string(seconds) +

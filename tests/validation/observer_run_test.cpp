@@ -40,7 +40,7 @@ testing::RunOptions options_of(double tolerance, double end_time) {
 constexpr Selection one(Quantity q) { return Selection(1) << static_cast<int>(q); }
 constexpr Selection audit = one(Quantity::energy_residual) | one(Quantity::drive_work) | one(Quantity::friction_loss) |
                             one(Quantity::damping_loss) | one(Quantity::load_work) | one(Quantity::ground_work) |
-                            one(Quantity::spring_loss);
+                            one(Quantity::spring_loss) | one(Quantity::film_loss);
 
 double series_value(testing::EnsembleResult const& r, std::size_t members, std::size_t samples, std::size_t row,
                     std::size_t member, std::size_t sample) {

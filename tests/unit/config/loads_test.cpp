@@ -177,6 +177,27 @@ members = 3
     EXPECT_LT(scene_of(text, {{"stop.front.stiffness", "1e9"}}).integrator.max_step, 2e-5);
 }
 
+TEST(SceneLoads, AFilmHasThreeNumbers) {
+    std::string const text = R"(schema = 1
+[film]
+viscosity = "60 mPa s"
+least_gap = "1 um"
+[study]
+members = 3
+[study.vary]
+"film.viscosity" = { dist = "unif", low = 0.04, high = 0.08 }
+)";
+    Scene const scene = scene_of(text, {{"film.cavitation_pressure", "\"1 bar\""}});
+    ASSERT_EQ(scene.parts.loads.count, 1);
+    EXPECT_EQ(scene.parts.loads.find(LoadKind::film), scene.parts.loads.loads);
+    EXPECT_NEAR(number(scene, 0, "viscosity"), 0.06, 1e-17);
+    EXPECT_NEAR(number(scene, 0, "least_gap"), 1e-6, 1e-21);
+    EXPECT_EQ(number(scene, 0, "cavitation_pressure"), 1e5);
+    EXPECT_EQ(resolved_toml(scene_of(resolved_toml(scene))), resolved_toml(scene));
+    EXPECT_EQ(scene_of(text).parts.loads.find(LoadKind::film)->cavitation_pressure, Load::none);
+    EXPECT_EQ(scene_of("schema = 1\n[load.gas]\nforce_x = 1\n").parts.loads.find(LoadKind::film), nullptr);
+}
+
 TEST_F(SceneLoadFiles, OfTheGroundsMotionHaveUpToThreeColumns) {
     auto const ground = [&](std::string const& csv, std::string const& more = "") {
         return "schema = 1\n[ground_motion]\ntable = \"" + file(csv) + "\"\n" + more;
@@ -270,6 +291,16 @@ TEST(SceneLoads, ElementsThatCannotBeAreOneLine) {
              Bad{"[stop.a]\nblocks = \"up\"\nposition = 1\nstiffness = 1\n", "stop.a.blocks is \"up\""},
              Bad{"[stop.a]\nblocks = \"+x\"\nposition = 1\nstiffness = 1\ndissipation = -1\n", "stop.a.dissipation is -1"},
              Bad{"[mechanism]\nkind = \"planar_slider_crank\"\ncross_inclination = 1\n", "mechanism.cross_inclination has no meaning"},
+             Bad{"[film]\n", "film.viscosity is missing (how strongly the film damps); add viscosity = \"0.1 Pa s\""},
+             Bad{"[film]\nviscosity = 1\n", "film.least_gap is missing"},
+             Bad{"[film]\nviscosity = 0\nleast_gap = 1e-6\n", "film.viscosity is 0"},
+             Bad{"[film]\nviscosity = 1\nleast_gap = 0\n", "film.least_gap is 0"},
+             Bad{"[film]\nviscosity = \"1 cSt\"\nleast_gap = 1e-6\n", "film.viscosity is \"1 cSt\""},
+             Bad{"[film]\nviscosity = 1\nleast_gap = 1e-6\ncavitation_pressure = -1\n", "film.cavitation_pressure is -1"},
+             Bad{"[film]\nviscosity = 1\nleast_gap = 1e-6\ngap = 1\n", "film.gap is no key"},
+             Bad{"film = 3\n", "it must be a table"},
+             Bad{"[film]\nviscosity = 1\nleast_gap = 1e-6\n[mechanism]\nkind = \"planar_slider_crank\"\n", "scene.toml:2: film has no meaning"},
+             Bad{"[film]\nviscosity = 1\nleast_gap = 1e-6\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n", "the equations of rigid contacts know no film"},
          }) {
         expect_refused(std::string("schema = 1\n") + bad.text, bad.words);
     }

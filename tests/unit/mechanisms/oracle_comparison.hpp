@@ -49,7 +49,7 @@ private:
 };
 
 inline double load_of(oracle::Result const& r) {
-    double sum = 0;
+    double sum = r.film_load;
     for (int i = 0; i < 8; ++i) sum += r.fn_y[static_cast<std::size_t>(i)] + r.fn_z[static_cast<std::size_t>(i)];
     return sum;
 }
@@ -83,11 +83,11 @@ inline void compare(std::string const& what, oracle::Case const& c, oracle::Resu
     compare.group("angular accelerations", r.derivative.data() + 7, d + 7, 3, (load + cancelled) * c.inputs.slider_length / inertia);
     compare.group("penetrations", joined(r.pen_y, r.pen_z), depths, 16);
     compare.group("forces", joined(r.fn_y, r.fn_z), forces, 16);
-    double const reference_powers[] = {r.power_crank, r.power_friction, r.power_damping, r.power_load, r.power_ground, r.loss_springs};
+    double const reference_powers[] = {r.power_crank, r.power_friction, r.power_damping, r.power_load, r.power_ground, r.loss_springs, r.loss_film};
     // A rate of penetration is a small difference of velocities, each of which is rounded.
     double const speed = std::abs(r.vx) + std::hypot(c.state[2], c.state[3]) +
                          c.inputs.slider_length * std::hypot(c.state[7], c.state[8], c.state[9]);
-    compare.group("powers", reference_powers, powers, 6, 1e-6 * load * speed);
+    compare.group("powers", reference_powers, powers, 7, 1e-6 * load * speed);
     compare.value("energy", r.energy, energy);
     // A penetration is good to about 1e-18 m, whatever its size.
     compare.value("potential", r.contact_potential, potential, load * 1e-18 / Comparison::tolerance);
@@ -132,7 +132,9 @@ inline void compare_forces(std::string const& what, oracle::Case const& c, oracl
     compare.group("p v", wear, &forces[static_cast<int>(Series::face_pv_y_plus) - first_force_series], 4,
                   1e-6 * load * speed / (in.slider_length * std::min(in.way_width, in.way_depth)));
     if (!c.parts.misaligned_way) compare.group("torque of the normal forces", r.normal_torque, torque, 3, load * arm);
-    compare.group("contact force", r.contact_force, &forces[static_cast<int>(Series::contact_force_x) - first_force_series], 3, load);
+    oracle::Vector held = r.contact_force;
+    for (std::size_t i = 0; i < 3; ++i) held[i] += r.film_force[i];
+    compare.group("contact force", held, &forces[static_cast<int>(Series::contact_force_x) - first_force_series], 3, load);
     double friction = 0, got_friction = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         friction = std::hypot(friction, r.contact_force[i] - r.normal_force[i]);
@@ -158,7 +160,7 @@ inline bool compare_probe(Isa isa, oracle::Case const& c, std::string const& wha
     std::vector<double> depths(p.penetration_y, p.penetration_y + 8), forces(p.normal_force_y, p.normal_force_y + 8);
     depths.insert(depths.end(), p.penetration_z, p.penetration_z + 8);
     forces.insert(forces.end(), p.normal_force_z, p.normal_force_z + 8);
-    double const powers[] = {p.power_crank, p.power_friction, p.power_damping, p.power_load, p.power_ground, p.loss_springs};
+    double const powers[] = {p.power_crank, p.power_friction, p.power_damping, p.power_load, p.power_ground, p.loss_springs, p.loss_film};
     EXPECT_EQ(p.status, Status::finished) << what;
     EXPECT_EQ(p.surfaces, r.surfaces) << what;
     EXPECT_EQ(p.lines, r.lines) << what;

@@ -81,7 +81,7 @@ void compare_report(oracle::Case const& c, std::string const& what) {
         put(forces, report.contact.normal_force[face]);
     }
     double const powers[] = {report.crank_power, report.contact.friction_power, report.contact.damping_power, report.load_power,
-                             report.ground_power, report.spring_loss};
+                             report.ground_power, report.spring_loss, report.film_loss};
     compare(what, c, r, rates, depths, forces, powers, report.energy, report.contact.potential, report.crank_torque);
 
     Comparison observed(what);

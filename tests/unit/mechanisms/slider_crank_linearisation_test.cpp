@@ -14,6 +14,7 @@
 #include "tests/oracle/linear_solve.hpp"
 #include "tests/oracle/random_states.hpp"
 #include "tests/support/compiled_laws.hpp"
+#include "tests/support/load_table.hpp"
 
 namespace slideway::slider_crank_linearisation_test {
 namespace {
@@ -162,6 +163,69 @@ TEST(SliderLinearisation, RateSquaredIsTheSumOfTheSquaredFrequenciesAndTheSquare
         ++compared;
     }
     EXPECT_GT(compared, 100);
+}
+
+TEST(SliderLinearisation, HasTheDampingOfAFilmToTheLastDigits) {
+    // The film's forces are linear in ν where it does not break: what they add to M ν', by differences.
+    Load film;
+    film.kind = LoadKind::film;
+    Parts filled = parts, dry = parts;
+    filled.loads = {&film, 1};
+    int compared = 0;
+    for (auto c : oracle::make_cases(35, 200)) {
+        int next = 0;
+        film.viscosity = testing::put_load_number(c.inputs, next, 0.1), film.least_gap = testing::put_load_number(c.inputs, next, 0.3 * c.inputs.clearance_y);
+        film.cavitation_pressure = testing::put_load_number(c.inputs, next, 1e30);
+        auto const p = SliderCrank::parameters(c.inputs);
+        auto const with = linearised(c, filled), without = linearised(c, dry);
+        if (std::isnan(with.rate_squared())) continue;
+        EXPECT_EQ(with.touching, without.touching + 1);
+        ContactMemory<double> memory;
+        start_memory(memory);
+        auto const rates = [&](oracle::State const& state, Parts const& of) {
+            Vector10 d;
+            SliderCrank::derivative<false>(c.t, state.data(), p, memory, testing::conditions_of<double>(of), d.data(), static_cast<SliderReport<double>*>(nullptr));
+            return d;
+        };
+        Matrix5 by_rate;
+        for (int j = 0; j < 5; ++j) {
+            auto const at = static_cast<std::size_t>(velocity_at[j]);
+            oracle::State more = c.state, less = c.state;
+            more[at] += size[at], less[at] -= size[at];
+            Vector10 const change = (rates(more, filled) - rates(more, dry)) - (rates(less, filled) - rates(less, dry));
+            for (int i = 0; i < 5; ++i) by_rate(i, j) = change(velocity_at[i]) / (2 * size[at]);
+        }
+        Matrix5 const want = mass_of(with) * by_rate, got = matrix(with.joint.by_rate) - matrix(without.joint.by_rate);
+        for (int i = 0; i < 5; ++i) {
+            for (int j = 0; j < 5; ++j) EXPECT_NEAR(got(i, j), want(i, j), 1e-6 * std::sqrt(got(i, i) * got(j, j))) << i << " " << j;
+        }
+        if (HasFailure()) break;
+        ++compared;
+    }
+    EXPECT_GT(compared, 100);
+}
+
+TEST(SliderLinearisation, HasTheStiffnessOfAFilmThatIsSqueezed) {
+    // Level, at the dead centre of a crank at rest, the film below pushes by c v/h³ and the one above is broken: 3 c v/h⁴.
+    Inputs in = oracle::completed({});
+    in.crank_speed = 0;
+    int next = 0;
+    Load film;
+    film.kind = LoadKind::film;
+    film.viscosity = testing::put_load_number(in, next, 0.1), film.least_gap = testing::put_load_number(in, next, 4e-5);
+    Parts of{Law::conservative, Damping::point, false, false};
+    of.loads = {&film, 1};
+    double const squeeze = 0.1 * std::pow(in.way_depth, 3) * (in.slider_length - 0.63 * in.way_depth);
+    for (double const y : {-7e-5, -5e-5, 0.0, 3e-5, 8e-5}) {
+        for (double const speed : {0.01, -0.01}) {
+            double state[10] = {};
+            state[0] = y, state[2] = speed;
+            auto const at = linearised(0, state, SliderCrank::parameters(in), of);
+            double const gap = in.clearance_y + (speed < 0 ? y : -y), want = gap < 4e-5 ? 0 : 3 * squeeze * 0.01 / std::pow(gap, 4);
+            EXPECT_NEAR(-at.joint.by_place[0][0], want, 1e-6 * want) << y << " " << speed;
+            EXPECT_EQ(at.joint.by_place[1][1], 0) << "the sides are not squeezed";
+        }
+    }
 }
 
 TEST(SliderLinearisation, CountsTheTouchingPairs) {

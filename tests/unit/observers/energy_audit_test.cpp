@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kernels/methods.hpp"
 
@@ -39,8 +40,8 @@ TEST(EnergyAudit, ResidualIsWhatTheBooksDoNotExplain) {
     Audit audit{};
     audit.change = 5, audit.drive_work = 7, audit.friction_loss = 1, audit.damping_loss = 2;
     EXPECT_DOUBLE_EQ(audit.residual(), 1);
-    audit.load_work = 3, audit.spring_loss = 4;
-    EXPECT_DOUBLE_EQ(audit.residual(), 2);
+    audit.load_work = 3, audit.spring_loss = 4, audit.film_loss = 6;
+    EXPECT_DOUBLE_EQ(audit.residual(), 8);
 }
 
 TEST(EnergyAudit, AllowsAFifthOfWhatContactTurnedOverAndAFiftiethOfFriction) {
@@ -50,6 +51,14 @@ TEST(EnergyAudit, AllowsAFifthOfWhatContactTurnedOverAndAFiftiethOfFriction) {
         EXPECT_FALSE(is_unstable(audit_with(sign * 4.19e-4, 0, 1e-3))) << "contact stored 1 mJ";
         EXPECT_TRUE(is_unstable(audit_with(sign * 4.21e-4, 0, 1e-3)));
     }
+}
+
+TEST(EnergyAudit, TakesAnOilFilmAsFriction) {
+    auto audit = audit_with(2.19e-4);
+    std::swap(audit.film_loss, audit.friction_loss);
+    EXPECT_FALSE(is_unstable(audit));
+    audit.made = 2.21e-4;
+    EXPECT_TRUE(is_unstable(audit));
 }
 
 TEST(EnergyAudit, LossesThatMadeEnergyExcuseNothing) {

@@ -126,7 +126,7 @@ template <Quantity q> constexpr int place = Observer::first_audited + Observer::
 constexpr int crank_magnitude = 0, springs = 1;
 static_assert(Observer::first_audited == 2 && Observer::powers == 2 + Observer::audit_integrals);
 static_assert(place<Quantity::drive_work> == 2 && place<Quantity::friction_loss> == 3 && place<Quantity::damping_loss> == 4);
-static_assert(place<Quantity::load_work> == 5 && place<Quantity::ground_work> == 6 && place<Quantity::spring_loss> == 7);
+static_assert(place<Quantity::load_work> == 5 && place<Quantity::ground_work> == 6 && place<Quantity::spring_loss> == 7 && place<Quantity::film_loss> == 8);
 
 TEST(Observer, IntegrandsAreThoseOfTheTable) {
     double values[Observer::integrals];
@@ -287,15 +287,17 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     watched.finish(4);
     double const work = 7 * (place<Quantity::drive_work> + 1), friction = 7 * (place<Quantity::friction_loss> + 1),
                  damping = 7 * (place<Quantity::damping_loss> + 1), loads = 7 * (place<Quantity::load_work> + 1);
-    double const ground = 7 * (place<Quantity::ground_work> + 1), springs = 7 * (place<Quantity::spring_loss> + 1);
+    double const ground = 7 * (place<Quantity::ground_work> + 1), springs = 7 * (place<Quantity::spring_loss> + 1),
+                 film = 7 * (place<Quantity::film_loss> + 1);
     EXPECT_EQ(watched(Quantity::drive_work), work);
     EXPECT_EQ(watched(Quantity::friction_loss), friction);
     EXPECT_EQ(watched(Quantity::damping_loss), damping);
     EXPECT_EQ(watched(Quantity::load_work), loads);
     EXPECT_EQ(watched(Quantity::ground_work), ground);
     EXPECT_EQ(watched(Quantity::spring_loss), springs);
+    EXPECT_EQ(watched(Quantity::film_loss), film);
     EXPECT_EQ(watched(Quantity::energy_change), 2.5);
-    EXPECT_EQ(watched(Quantity::energy_residual), 2.5 - work - loads - ground + springs + friction + damping);
+    EXPECT_EQ(watched(Quantity::energy_residual), 2.5 - work - loads - ground + springs + film + friction + damping);
     auto const mean = [](int at) { return 7 * (at + 1) / 4.0; };
     EXPECT_EQ(watched(Quantity::mean_normal_force), mean(place<Quantity::mean_normal_force>));
     EXPECT_EQ(watched(Quantity::rms_crank_torque), std::sqrt(mean(place<Quantity::rms_crank_torque>)));
