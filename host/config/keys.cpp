@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "kernels/mechanisms/list.hpp"
+#include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
 #include "host/config/units.hpp"
@@ -255,7 +258,7 @@ double most_reach(Inputs const& in, Parts const& parts) { return in.crank_length
 
 /// Rigid contacts, and the corners of a block in the plane: a preload is of faces that give way.
 bool needs_gap(Parts const& parts) { return parts.rigid || !info(parts.mechanism).spatial; }
-constexpr std::string_view no_gap = "without a gap contacts must give way, as the laws of mechanisms in space do", give_gap = "use a value > 0, or such a law";
+constexpr std::string_view no_gap = "without a gap contacts must give way, as the laws of mechanisms in space do", give_gap = "use a clearance > 0 in the mean of both faces, or in space such a law";
 
 constexpr struct {
     std::string_view key, other;
@@ -285,6 +288,34 @@ constexpr struct {
      "not above friction.stick_speed, {stick} m/s", "use a slip_speed > stick_speed"},
 };
 
+/// The key of a number of a load, kept: a defect names it.  One that is broken is rare.
+Key const& key_of(Load const& load, LoadNumber const& number, int place) {
+    static std::mutex mutex;
+    static std::map<std::string, Key> keys;
+    std::lock_guard const lock(mutex);
+    auto const at = keys.try_emplace(fmt::format("{}.{}", load.name, number.name)).first;
+    at->second = {at->first, load_inputs[place], number.unit, number.rule, KeyGroup::load, number.meaning, number.preset};
+    return at->second;
+}
+
+/// Numbers of loads are of the scene, and in no table of keys.
+std::optional<Defect> defect_of_loads(Inputs const& in, LoadList const& loads) {
+    for (int i = 0; i < loads.count; ++i) {
+        Load load = loads.loads[i];
+        for (LoadNumber const& number : load_numbers()) {
+            int const place = number.kind == load.kind ? number.place(load) : Load::none;
+            if (place == Load::none) continue;
+            double const value = in.*load_inputs[place];
+            Key const asked{{}, load_inputs[place], number.unit, number.rule, KeyGroup::load, number.meaning, number.preset};
+            if (auto problem = broken_rule(asked, value)) return Defect{&key_of(load, number, place), nullptr, value, *std::move(problem)};
+        }
+        if (load.kind != LoadKind::way_ends || load.from == Load::none || load.to == Load::none || in.*load_inputs[load.from] < in.*load_inputs[load.to]) continue;
+        Key const& end = key_of(load, *find_load_number(LoadKind::way_ends, "to"), load.to);
+        return Defect{&end, nullptr, end.get(in), {"the way ends where it begins, or before", "use a larger x than that of from"}};
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
@@ -307,7 +338,7 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
                                       fmt::arg("angle", in.start_angle), fmt::arg("stick", in.friction_stick_speed));
         return Defect{&key, find_key(rule.other), key.get(in), {std::move(why), std::string(rule.instead)}};
     }
-    return std::nullopt;
+    return defect_of_loads(in, parts.loads);
 }
 
 std::optional<std::string> defect(Inputs const& inputs, Parts const& parts) {

@@ -250,7 +250,6 @@ private:
     void read_ends() {
         Node const *const from = node_.find("from"), *const to = node_.find("to");
         if (from == nullptr && to == nullptr) refuse_missing(node_, node_.name + ".to", "where the way ends", "add to = 0.3, or from, where it begins");
-        if (from != nullptr && to != nullptr && !(read_number(*from, "m") < read_number(*to, "m"))) refuse(*to, {"the way ends where it begins, or before", "use a larger x than that of from"});
     }
 
     void read_film() {
@@ -397,7 +396,8 @@ void refuse_ungiven(std::string_view where, std::string_view name, Scene const& 
     LoadNumber const* const number = find_load_number(static_cast<LoadKind>(table - std::begin(load_tables)), own);
     if (number == nullptr) return;
     auto const is_load = [&](SceneLoads::Row const& row) { return row.name == load; };
-    std::string const advice = fmt::format("add {} = {}", own, number->preset);
+    bool const has_preset = number->rule != Rule::positive && number->kind != LoadKind::way_ends;
+    std::string const advice = has_preset ? fmt::format("add {} = {}", own, number->preset) : fmt::format("add {}", own);
     if (scene.loads == nullptr || std::ranges::none_of(scene.loads->rows(), is_load))
         throw SceneError(fmt::format("{}: {} is of no load of the scene (there is no [{}]); add that, or use the name of another", where, name, load));
     throw SceneError(fmt::format("{}: {} is not given in [{}] (a number must be given to vary); {}", where, name, load, advice));
@@ -414,7 +414,7 @@ void read_loads(Reading& reading) {
             if (loads->keys().size() == most_load_numbers) {
                 Node const* const node = reading.given(name);
                 refuse(node != nullptr ? *node : *reading.given(load.row.name),
-                       {"all loads, springs and stops of a scene, the ground's motion and the film have sixteen numbers at most together", "use fewer"});
+                       {"all loads, springs, stops, profiles and ends of a scene, the ground's motion and the film have sixteen numbers at most together", "use fewer"});
             }
             int const place = number->place(load.load) = loads->add_key(std::move(name), *number);
             scene.inputs.*load_inputs[place] = number->preset;

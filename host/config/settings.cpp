@@ -203,7 +203,7 @@ std::vector<Setting> with_physics(Settings rows) {
     }
     std::ranges::copy(load_settings(), std::back_inserter(all));  // of loads of any name
     static constexpr std::string_view tables[] = {"",        "modules",  "mechanism", "drive", "joint", "slider", "material",   "way",
-                                                  "contact", "friction", "initial",   "load",  "spring", "stop", "ground_motion", "film", "integrator", "study"};
+                                                  "contact", "friction", "initial",   "load",  "spring", "stop", "ground_motion", "way_profile", "way_ends", "film", "integrator", "study"};
     std::ranges::stable_sort(all, {}, [](Setting const& row) { return std::ranges::find(tables, row.table()) - tables; });
     return all;
 }

@@ -10,7 +10,7 @@
 
 namespace slideway {
 
-/// Members may start inside the way by this share of their smaller clearance: contacts press in by less than a hundredth of it, and what starts
+/// Members may start inside the way by this share of their smaller clearance, or of their preload deeper than that: contacts press in by less than a hundredth of it, and what starts
 /// deeper starts with energy that nothing has given it.
 inline constexpr double deepest_start = 0.1;
 

@@ -42,7 +42,7 @@ std::optional<CardLack> lack_of_cards(Scene const& scene) {
     if ((scene.quantities & selections::force_quantities) != 0 || (scene.series & force_series) != 0)
         return CardLack{"study.quantities asks for forces of faces or pins", "the kernels for cards do not tell them"};
     if (parts.offset_slider) return CardLack{"a slider.* key is given", "the kernels for cards have mass centre and pin in the hole's centre"};
-    if (parts.loads.count > 0) return CardLack{fmt::format("{} is given", parts.loads.loads[0].name), "the kernels for cards have no loads"};
+    if (parts.loads.count > 0) return CardLack{fmt::format("{} is given", parts.loads.loads[0].name), "the kernels for cards have no loads, no film, and a straight way without ends"};
     if (module_of(parts.law) != nullptr) return law("the kernels for cards have no laws of modules");
     return {};
 }

@@ -43,7 +43,7 @@ FilmLoads film_loads(Inputs const& in, Parts const& parts, SliderMotion const& s
     auto const number = [&](int place) { return place < 0 ? Real(0) : Real(in.*slideway::load_inputs[place]); };
     Lubricant const film{number(found->viscosity), number(found->least_gap), number(found->cavitation_pressure)};
     Matrix4 const way = pose_of_way(in, parts);
-    PairTable const pairs = pairs_of(in, slider, way, nullptr);
+    PairTable const pairs = pairs_of(in, parts, slider, way, nullptr);
     for (FaceOfWay const& face : faces_of_way)
         add_plate(film, face, pairs[face.axis], in.slider_length, face.axis == 1 ? in.way_depth : in.way_width, sum);
     Matrix3 const turn_back = way.topLeftCorner<3, 3>();

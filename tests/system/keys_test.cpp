@@ -58,7 +58,8 @@ TEST_F(ListedKeys, AreAllInTheJsonWithWhatTheTablesSay) {
         return *std::find_if(json["keys"].begin(), json["keys"].end(), [&](Json const& one) { return one["name"] == name; });
     };
     EXPECT_EQ(key("joint.clearance")["unit"], "m");
-    EXPECT_EQ(key("joint.clearance")["exclusive_minimum"], 0);
+    EXPECT_EQ(key("joint.clearance")["minimum"], -1e-4);
+    EXPECT_EQ(key("joint.slider_length")["exclusive_minimum"], 0);
     EXPECT_EQ(key("joint.clearance")["usual_maximum"], 0.01);
     EXPECT_FALSE(key("initial.y").contains("usual_maximum"));
     EXPECT_EQ(key("integrator.rtol")["default"], "1e-06");

@@ -107,7 +107,7 @@ TEST(WayProfile, PushesAsItsPotentialFalls) {
     for (Law const law : {Law::conservative, Law::kelvin_voigt, Law::foundation}) {
         SCOPED_TRACE(static_cast<int>(law));
         Loaded l{{}, {}};
-        l.in.clearance_y = l.in.clearance_z = 5e-5, l.in.gravity = 0;
+        l.in.clearance_y = l.in.clearance_z = 5e-5, l.in.gravity = 0, l.in.law_a = 1e9;
         add_profile(l, worn.table(), y_minus).scale = l.number(2);
         add_profile(l, worn.table(), 4 | y_plus);
         add_ends(l, -0.015, 0.018);
@@ -145,7 +145,7 @@ TEST(WayProfile, MirroredMovesAsItsMirrorImage) {
     auto const a = slide(taper, 1), b = slide(mirror, -1);
     EXPECT_GT(a.value(0, Quantity::contact_onsets), 0);
     double const signs[] = {1, 1, 1, 1, 1, -1, -1, 1, -1, -1, -1, -1};  // y z vy vz, roll and its rate stay
-    for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(a.states[0][i], signs[i] * b.states[0][i], 1e-9 * (1e-2 + std::abs(a.states[0][i]))) << i;
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(a.states[0][i], signs[i] * b.states[0][i], 1e-6 * (1e-2 + std::abs(a.states[0][i]))) << i;
 }
 
 /// A slider that lies across a way's end is held there and at its other end by the lever rule.
@@ -245,12 +245,12 @@ TEST(WayProfile, IsTheSameInEveryLane) {
 
 /// The stiff method's matrix knows where the segment's ends lie; it takes no more steps than on a straight way.
 TEST(WayProfile, TakesTheStiffMethodsStepsAsOthers) {
-    Pieces const flat({{-1, 0, 0, 0, 0}, {-0.01, 0, 0, 0.02, 0}}, 1);
+    Pieces const bends({{-1, 0, 0, 0, 0}, {0.16, 0, 0, 2e-3, 0}}, 1);
     auto const with = [&](Method method, double tolerance, bool profiled) {
         Loaded l{{}, {}};
         l.in.y = -l.in.clearance_y - 1e-7, l.in.law_a = 1e9, l.in.law_b = 3e3;
-        if (profiled) add_profile(l, flat.table(), y_faces), add_ends(l, -1, 0.01);
-        auto o = options(l, Mechanism::carriage, 0.02, tolerance);
+        if (profiled) add_profile(l, bends.table(), y_faces), add_ends(l, -1, 0.2022);  // half of the front half overhangs
+        auto o = options(l, Mechanism::slider_crank, 0.02, tolerance);
         o.parts.law = Law::kelvin_voigt, o.parts.friction = true;
         o.settings.method = method;
         return run(l, o);

@@ -24,7 +24,7 @@ def magnification(joint: Joint) -> float:
     18.0
     """
     size = joint.width if joint.planar else min(joint.width, joint.depth)
-    wanted = VISIBLE * size / max(joint.gap_y, joint.gap_z)
+    wanted = VISIBLE * size / max(abs(joint.gap_y), abs(joint.gap_z), 1e-7)
     return max(1.0, float(f"{wanted:.2g}"))
 
 

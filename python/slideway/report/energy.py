@@ -85,6 +85,8 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
         return None
     terms = (column(every, name) for name in ("drive_work", "friction_loss", "damping_loss", "energy_change"))
     work, friction, damping, change = (one.mean if one else math.nan for one in terms)
+    # What dampers and oil take is lost as what contacts damp is.
+    damping += sum(one.mean for name in ("spring_loss", "film_loss") if (one := column(every, name)))
     scene = slideway.scene(result)
     if scene["mechanism"]["kind"] == "free_slider" or drive_kind(scene) == "free":
         work = 0.0

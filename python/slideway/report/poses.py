@@ -59,7 +59,11 @@ def why_none(result: xr.Dataset) -> str | None:
         return 'The members are not stored (study.store = "statistics"), so there is no time series to draw.'
     if "sample" not in result.sizes or result.sizes["sample"] == 0:
         return "The file holds no time series; an ensemble with study.samples_per_revolution (or study.samples) has one."
-    kind = slideway.scene(result).get("mechanism", {}).get("kind")
+    scene = slideway.scene(result)
+    shaped = [name for name in ("way_profile", "way_ends") if name in scene]
+    if shaped:
+        return f"The drawing knows straight ways without ends, and the scene has [{shaped[0]}]."
+    kind = scene.get("mechanism", {}).get("kind")
     planar = kind == "planar_slider_crank"
     missing = [name for name in STATES["planar" if planar else "spatial"] if name not in result]
     if missing:

@@ -266,8 +266,13 @@ TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
     expect_refused("schema = 1\n[way_profile.wear]\nfaces = \"y\"\n", "way_profile.wear.table is missing");
     expect_refused("schema = 1\n[way_profile.wear]\ntable = \"p.csv\"\n", "way_profile.wear.column is missing");
     expect_refused("schema = 1\n[way_ends]\n", "way_ends.to is missing");
-    expect_refused("schema = 1\n[way_ends]\nfrom = 0.2\nto = 0.2\n", "way_ends.to is 0.2 (the way ends where it begins");
+    expect_refused("schema = 1\n[way_ends]\nfrom = 0.2\nto = 0.2\n", "way_ends.to is 0.2 m (the way ends where it begins");
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n", "a way without ends");
+    // Drawn numbers keep their rules, too.
+    Inputs drawn = scene.inputs;
+    drawn.*load_inputs[profile.scale] = -1;
+    EXPECT_TRUE(contains(defect(drawn, scene.parts).value_or(""), "way_profile.wear.scale is -1"));
+    expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[film]\nviscosity = 0.1\nleast_gap = 1e-6\n", "between straight faces without ends");
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[mechanism]\nkind = \"planar_slider_crank\"\n", "way_ends");
 }
 
