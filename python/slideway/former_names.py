@@ -9,6 +9,7 @@ try:
 except ImportError:  # without the library results keep the names that they have
     _native = None  # type: ignore[assignment]
 
+first_format = 3  # format_version of results whose names are those of now
 _names: dict[str, str] = {} if _native is None else _native.former_names()
 _words = re.compile(rf"(?<![a-z0-9_])({'|'.join(map(re.escape, _names)) or '(?!)'})(?![a-z0-9_])")
 

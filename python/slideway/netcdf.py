@@ -19,7 +19,7 @@ from xarray.backends.netCDF4_ import NETCDF4_PYTHON_LOCK
 from xarray.core import indexing
 
 from .errors import SlidewayError
-from .former_names import name_of_now
+from .former_names import first_format, name_of_now
 
 if TYPE_CHECKING:
     import netCDF4
@@ -97,7 +97,12 @@ def place_of(file: netCDF4.Dataset, group: str | None) -> Any:
 
 
 def variables_of(place: Any) -> dict[str, netCDF4.Variable]:
-    """The variables of a file or group under their names of now."""
+    """The variables of a file or group under their names of now; a file of this format has no others."""
+    file = place
+    while file.parent is not None:
+        file = file.parent
+    if int(getattr(file, "format_version", 1)) >= first_format:
+        return dict(place.variables)
     return {name_of_now(name): variable for name, variable in place.variables.items()}
 
 
