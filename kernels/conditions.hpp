@@ -22,6 +22,7 @@ template <class Laws> struct Conditions {
     bool tells_forces = false;    // reports that tell more have the forces of faces and pins, too
     LoadList loads;
     bool way_profile = false;  // there is one among the loads, or the way ends
+    bool film = false;         // and a film
     DrivePlan drive;
 
     constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)
@@ -34,6 +35,7 @@ template <class Laws> struct Conditions {
           continuous(of_law.continuous() && !remembers),
           loads(parts.loads),
           way_profile(parts.loads.find(LoadKind::way_profile) != nullptr || parts.loads.find(LoadKind::way_ends) != nullptr),
+          film(parts.loads.find(LoadKind::film) != nullptr),
           drive(parts.drive) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.

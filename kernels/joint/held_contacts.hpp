@@ -111,11 +111,16 @@ private:
         push.force.x = chosen(face, motion_.profile.push).applied(side, half * (sums.all + sums.along), half * (sums.all - sums.along));
         push.torque = push.torque + cross((side * sums.all) * shift(), n);
     }
-    /// Of the contact segment's middle from the slider's centre, and the slider's velocity there.
+    /// Of the contact segment's middle from the slider's centre, what a force there adds to the torque, and the slider's velocity there.
+    SLIDEWAY_FN void add_shifted(Vec3<Real> const& force, auto& push) const {
+        if (motion_.is_profiled) push.torque = push.torque + cross(shift(), force);
+    }
     SLIDEWAY_FN Vec3<Real> shift() const { return {segment_shift(motion_), Real(0.0), Real(0.0)}; }
     SLIDEWAY_FN Vec3<Real> shifted(Vec3<Real> const& velocity, [[maybe_unused]] Vec3<Real> const& spin) const {
-        if constexpr (may_have_profile) return velocity + cross(spin, shift());
-        else return velocity;
+        if constexpr (may_have_profile) {
+            if (motion_.is_profiled) return velocity + cross(spin, shift());
+        }
+        return velocity;
     }
 
     /// @tparam all or none of its apices touches beside the first two
@@ -156,7 +161,7 @@ private:
             auto const friction = StickSlipFriction::load<all>(sliding, order, slips, f.normal);
             push.force = push.force + friction.force;
             push.torque = push.torque + friction.torque;
-            if constexpr (may_have_profile) push.torque = push.torque + cross(shift(), friction.force);
+            if constexpr (may_have_profile) add_shifted(friction.force, push);
             if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
         }
         auto& w = result_.wrench;

@@ -128,18 +128,23 @@ private:
                                                     f.normal);
             push.force = push.force + friction.force;
             push.torque = push.torque + friction.torque;
-            if constexpr (may_have_profile) push.torque = push.torque + cross(shift(), friction.force);
+            if constexpr (may_have_profile) add_shifted(friction.force, push);
             if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
             if (none(both)) [[likely]] break;
         }
         add_push<axis>(push, n, w);
     }
 
-    /// Of the contact segment's middle from the slider's centre, and the slider's velocity there.
+    /// Of the contact segment's middle from the slider's centre, what a force there adds to the torque, and the slider's velocity there.
+    SLIDEWAY_FN void add_shifted(Vec3<Real> const& force, auto& push) const {
+        if (motion_.is_profiled) push.torque = push.torque + cross(shift(), force);
+    }
     SLIDEWAY_FN Vec3<Real> shift() const { return {segment_shift(motion_), Real(0.0), Real(0.0)}; }
     SLIDEWAY_FN Vec3<Real> shifted(Vec3<Real> const& velocity, [[maybe_unused]] Vec3<Real> const& spin) const {
-        if constexpr (may_have_profile) return velocity + cross(spin, shift());
-        else return velocity;
+        if constexpr (may_have_profile) {
+            if (motion_.is_profiled) return velocity + cross(spin, shift());
+        }
+        return velocity;
     }
 
     /// What the law says of a face.
@@ -212,7 +217,9 @@ private:
         auto const& g = p_.geometry;
         Vec3<Real> arm{segment_half(motion_, g.half_length) * push.along, fnma(Faces::main(motion_), push.net, Faces::half_main(g) * push.total),
                        fnma(Faces::across(motion_), push.net, Faces::half_across(g) * push.across)};
-        if constexpr (may_have_profile) arm.x = fma(motion_.shift, push.net, arm.x);
+        if constexpr (may_have_profile) {
+            if (motion_.is_profiled) arm.x = fma(motion_.shift, push.net, arm.x);
+        }
         Vec3<Real> force{push.force.x, fma(push.net, n.y, push.force.y), fma(push.net, n.z, push.force.z)};
         w.force = w.force + Faces::arranged(force);
         w.torque = w.torque + Faces::arranged_axial(push.torque + cross(arm, n));

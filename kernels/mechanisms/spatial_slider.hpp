@@ -130,6 +130,13 @@ private:
                                                             Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
         return evaluate<Full, true>(t, s, p, memory, block, rates, report);
     }
+    /// What the joint sees: without loads a way that is straight and has no ends.  No lambda, which would have all of it lie in memory.
+    template <bool loaded, class Real, class Laws>
+    SLIDEWAY_FN static auto seen(Conditions<Laws> const& block, SliderTurning<Real> const& turning, Vec3<Real> const& position, Vec3<Real> const& velocity,
+                                 Numbers<Real> const& p) {
+        if constexpr (loaded) return motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
+        else return joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, p.joint.way);
+    }
     template <bool Full, bool loaded, class Real, class Laws>
     SLIDEWAY_FN static Faults<Real> evaluate(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
                                              Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
@@ -142,19 +149,19 @@ private:
         auto const& way = p.joint.way;
         Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
         if constexpr (loaded) at.leave_pin(position.x, velocity.x);
-        auto motion = [&] {
-            if constexpr (loaded) return motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
-            else return joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
-        }();
+        auto motion = seen<loaded>(block, turning, position, velocity, p);
         Joint<Real, Laws, Full, decltype(motion)> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
         auto wrench = joint.wrench(faults.contact_domain);
         if constexpr (loaded) faults.geometry = faults.geometry | motion.has_left;
-        [[maybe_unused]] OilFilm<Real> film;
+        [[maybe_unused]] Real film_loss(0.0);
         if constexpr (loaded) {
-            JointMotion<Real> seen = motion;  // as Joint's own is not to lie in memory
-            film = OilFilm<Real>::of(block.loads, p.load, seen, p.joint.geometry);
-            wrench.force = wrench.force + film.wrench.force;
-            wrench.torque = wrench.torque + film.wrench.torque;
+            if (block.film) {
+                JointMotion<Real> oiled = motion;  // as Joint's own is not to lie in memory
+                auto const film = OilFilm<Real>::of(block.loads, p.load, oiled, p.joint.geometry);
+                wrench.force = wrench.force + film.wrench.force;
+                wrench.torque = wrench.torque + film.wrench.torque;
+                film_loss = film.loss;
+            }
         }
         auto force = to_inertial(block.misaligned_way, wrench.force, way);
         [[maybe_unused]] SliderLoads<Real> loads;
@@ -191,7 +198,7 @@ private:
             if (!is_offset) guide.tell(centre, turning, force, p, block.powers_alone, *report);
             if constexpr (loaded) {
                 loads.tell(drive, *report);
-                report->film_loss = film.loss;
+                report->film_loss = film_loss;
             }
         }
         return faults;

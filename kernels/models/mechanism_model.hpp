@@ -14,7 +14,7 @@ template <class Laws> struct ConditionsOfBlock : ModelDefaults {
 
     SLIDEWAY_HD bool switches() const { return block.switches; }
     SLIDEWAY_HD bool has_loads() const { return block.loads.count > 0; }
-    SLIDEWAY_HD bool has_film() const { return block.loads.find(LoadKind::film) != nullptr; }
+    SLIDEWAY_HD bool has_film() const { return block.film; }
     SLIDEWAY_HD bool remembers() const { return block.remembers; }
     SLIDEWAY_HD void hold_contacts(Watching watching) {
         block.holds_contacts = holds_contacts(watching);

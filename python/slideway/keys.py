@@ -58,7 +58,7 @@ def keys(part: str = "", program: StrPath | None = None) -> Keys:
         program: path of the program; left out: SLIDEWAY_PROGRAM, else the PATH.
 
     >>> print(slideway.keys()["joint.clearance"])
-    joint.clearance [m]: clearance per side; >= -0.0001; default 0.0001
+    joint.clearance [m]: clearance per side; ≥ -0.0001; default 0.0001
     >>> print(slideway.keys("young"))
     contact.slider_young_modulus [Pa]: modulus of the slider; > 0; default 2.07e+11
     contact.way_young_modulus [Pa]: modulus of the way; > 0; default 2.07e+11

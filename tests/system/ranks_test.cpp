@@ -157,7 +157,7 @@ TEST_F(SharedRun, EndsWhereAnotherRankCannotBegin) {
 }
 
 TEST_F(SharedRun, OfABrokenSceneEndsAtEveryRank) {
-    write("s.toml", "schema = 1\n[joint]\nclearance = \"0 m\"\n");
+    write("s.toml", "schema = 1\n[joint]\nclearance = \"-1 m\"\n");
     ShellOutcome const outcome = shell(mpirun(3, 30) + run_text(""));
     EXPECT_EQ(outcome.code, 2) << outcome.err;
     EXPECT_NE(outcome.err.find("s.toml:3: joint.clearance"), std::string::npos) << outcome.err;

@@ -125,8 +125,8 @@ TEST_F(Run, ReplaysOneMemberBitForBit) {
 }
 
 TEST_F(Run, CountsAndReplaysMembersWithUnusableInputs) {
-    // About one in six of these clearances is negative.  A small one takes ten thousands of steps a millisecond.
-    std::vector<std::string> const vary{"--set", R"(study.vary."joint.clearance"={dist="norm",mean=1e-4,sd=1e-4})", "--set",
+    // About one in six of these masses is negative.
+    std::vector<std::string> const vary{"--set", R"(study.vary."mechanism.slider_mass"={dist="norm",mean=0.2,sd=0.2})", "--set",
                                         R"(study.duration="1 ms")", "--any-start"};
     auto const with = [&](std::vector<std::string> options) {
         options.insert(options.end(), vary.begin(), vary.end());
@@ -135,13 +135,13 @@ TEST_F(Run, CountsAndReplaysMembersWithUnusableInputs) {
     Outcome const outcome = with({});
     EXPECT_EQ(outcome.code, 3);
     EXPECT_NE(outcome.err.find("more than --max-failures 1%"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.out.find("invalid_inputs: joint.clearance_y is -"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("invalid_inputs: mechanism.slider_mass is -"), std::string::npos) << outcome.out;
 
     ResultReader const file = results("s.nc");
-    auto const status = file.values("status"), clearance = file.values("joint_clearance"), y = file.values("final_y");
+    auto const status = file.values("status"), mass = file.values("mechanism_slider_mass"), y = file.values("final_y");
     std::uint64_t failed = 0;
     for (std::size_t i = 0; i < status.size(); ++i) {
-        bool const usable = clearance[i] > 0;
+        bool const usable = mass[i] > 0;
         EXPECT_EQ(status[i] == static_cast<double>(Status::invalid_inputs), !usable) << i;
         EXPECT_EQ(std::isnan(y[i]), !usable) << i;
         failed += !usable;

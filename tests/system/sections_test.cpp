@@ -73,17 +73,17 @@ TEST_F(SectionsByPhase, OfAFailedMemberAreKept) {
 }
 
 TEST_F(SectionsByPhase, OfUnusableMembersAreNone) {
-    // About one in six of these clearances is negative.
-    std::string const vary = R"(study.vary."joint.clearance"={dist="norm",mean=1e-4,sd=1e-4})";
+    // About one in six of these masses is negative.
+    std::string const vary = R"(study.vary."mechanism.slider_mass"={dist="norm",mean=0.2,sd=0.2})";
     Outcome const outcome = run_scene(by_phase, {"--any-start", "--max-failures", "100%", "--set", "study.members=40", "--set",
                                                  "study.revolutions=1", "--set", vary, "-o", "r.nc"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     ResultReader const file = results();
-    auto const clearance = file.values("joint_clearance"), counts = file.values("section_count"),
+    auto const mass = file.values("mechanism_slider_mass"), counts = file.values("section_count"),
                status = file.values("status");
-    EXPECT_LT(*std::min_element(clearance.begin(), clearance.end()), 0);
+    EXPECT_LT(*std::min_element(mass.begin(), mass.end()), 0);
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (clearance[i] <= 0) {
+        if (mass[i] <= 0) {
             EXPECT_EQ(counts[i], 0) << i;
         } else if (status[i] == 0) {
             EXPECT_EQ(counts[i], 1) << i;

@@ -53,7 +53,7 @@ TEST_F(Usage, OfCardsForOtherMechanisms) {
 TEST_F(Usage, OfCardsForLoads) {
     write("l.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[load.push]\nforce_x = 1\n");
     for (char const* const command : {"run", "check"})
-        expect_refusal(2, "l.toml: load.push is given (the kernels for cards have no loads); use --backend cpu", {command, "l.toml", "--backend", "cuda"});
+        expect_refusal(2, "l.toml: load.push is given (the kernels for cards have no loads, no film, and a straight way without ends); use --backend cpu", {command, "l.toml", "--backend", "cuda"});
 }
 
 TEST_F(Usage, OfCardsForForces) {
