@@ -54,6 +54,15 @@ def mean_clearance(joint: Mapping[str, Any], axis: str) -> float:
     return sum(face_clearances(joint, axis)) / 2
 
 
+def play(clearance: float) -> float:
+    """What movements in the joint are measured by [m]: its clearance, or its preload (model.md 16); NaN of none.
+
+    >>> play(1e-4), play(-2e-6), play(0.0)
+    (0.0001, 2e-06, 1e-07)
+    """
+    return max(abs(clearance), 1e-7)
+
+
 def _middle(resolved: Mapping[str, Any]) -> Array:
     """From the way's axis to the middle between its faces, along its axes [m] (model.md 16)."""
     shifts = [(minus - plus) / 2 for plus, minus in (face_clearances(resolved.get("joint", {}), axis) for axis in ("y", "z"))]

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from slideway.way import play
+
 from .members import chosen
 from .poses import Joint, Poses
 from .traces import packed
@@ -24,7 +26,7 @@ def magnification(joint: Joint) -> float:
     18.0
     """
     size = joint.width if joint.planar else min(joint.width, joint.depth)
-    wanted = VISIBLE * size / max(abs(joint.gap_y), abs(joint.gap_z), 1e-7)
+    wanted = VISIBLE * size / max(play(joint.gap_y), play(joint.gap_z))
     return max(1.0, float(f"{wanted:.2g}"))
 
 

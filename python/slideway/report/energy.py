@@ -9,7 +9,7 @@ import xarray as xr
 
 import slideway
 from slideway.ideal import drive_kind
-from slideway.way import mean_clearance
+from slideway.way import mean_clearance, play
 
 from .columns import Column, column
 from .numbers import amount, percent
@@ -106,7 +106,7 @@ def _reference(result: xr.Dataset) -> tuple[float, str]:
     if mechanism["kind"] == "planar_slider_crank":
         speed = mechanism.get("crank_length", math.nan) * mechanism.get("crank_speed", math.nan)
         return mass * speed**2 / 2, "the slider's kinetic energy at the speed of the crank pin"
-    gap = mean_clearance(joint, "y")
+    gap = play(mean_clearance(joint, "y"))
     fall = mechanism.get("gravity", math.nan) * gap
     if fall == 0:  # without weight nothing else has a size where all energies are rounding
         return mass * (gap * max(1.0, abs(mechanism.get("crank_speed", 0.0)))) ** 2, "the slider's energy at a clearance a radian"
