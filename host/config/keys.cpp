@@ -294,7 +294,7 @@ Key const& key_of(Load const& load, LoadNumber const& number, int place) {
     static std::map<std::string, Key> keys;
     std::lock_guard const lock(mutex);
     auto const at = keys.try_emplace(fmt::format("{}.{}", load.name, number.name)).first;
-    at->second = {at->first, load_inputs[place], number.unit, number.rule, KeyGroup::load, number.meaning, number.preset};
+    at->second = number.key(at->first, place);
     return at->second;
 }
 
@@ -306,8 +306,7 @@ std::optional<Defect> defect_of_loads(Inputs const& in, LoadList const& loads) {
             int const place = number.kind == load.kind ? number.place(load) : Load::none;
             if (place == Load::none) continue;
             double const value = in.*load_inputs[place];
-            Key const asked{{}, load_inputs[place], number.unit, number.rule, KeyGroup::load, number.meaning, number.preset};
-            if (auto problem = broken_rule(asked, value)) return Defect{&key_of(load, number, place), nullptr, value, *std::move(problem)};
+            if (auto problem = broken_rule(number.key({}, place), value)) return Defect{&key_of(load, number, place), nullptr, value, *std::move(problem)};
         }
         if (load.kind != LoadKind::way_ends || load.from == Load::none || load.to == Load::none || in.*load_inputs[load.from] < in.*load_inputs[load.to]) continue;
         Key const& end = key_of(load, *find_load_number(LoadKind::way_ends, "to"), load.to);

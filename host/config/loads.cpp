@@ -112,6 +112,8 @@ std::string prefix_of(std::string_view table) { return std::string(table) + (has
 
 std::span<LoadNumber const> load_numbers() { return numbers; }
 
+Key LoadNumber::key(std::string_view dotted, int at) const { return {dotted, load_inputs[at], unit, rule, KeyGroup::load, meaning, preset}; }
+
 LoadNumber const* find_load_number(LoadKind kind, std::string_view name) {
     auto const found = std::ranges::find_if(numbers, [&](LoadNumber const& number) { return number.kind == kind && number.name == name; });
     return found == std::end(numbers) ? nullptr : found;
@@ -152,7 +154,7 @@ void SceneLoads::add(Row row, Load const& load) {
 
 int SceneLoads::add_key(std::string name, LoadNumber const& number) {
     auto const place = static_cast<int>(keys_.size());
-    keys_.push_back({names_.emplace_back(std::move(name)), load_inputs[place], number.unit, number.rule, KeyGroup::load, number.meaning, number.preset});
+    keys_.push_back(number.key(names_.emplace_back(std::move(name)), place));
     return place;
 }
 

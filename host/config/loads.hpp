@@ -33,6 +33,9 @@ struct LoadNumber {
     double preset = 0;
     bool planar = true;                       // it means something in a plane
     bool of_crank = false, of_slider = true;  // of a push on which of them
+
+    /// Of a scene.  @param dotted its name there, which is kept elsewhere  @param at its place among Inputs::load_a …
+    Key key(std::string_view dotted, int at) const;
 };
 std::span<LoadNumber const> load_numbers();
 LoadNumber const* find_load_number(LoadKind kind, std::string_view name);

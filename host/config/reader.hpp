@@ -58,7 +58,7 @@ void read_drive(Reading& reading);
 void finish_drive(Scene& scene);
 /// Refuses a profile that ends before the run.  @param longest of a member [s]
 void check_profile(Reading const& reading, double longest);
-/// [load.<name>], [spring.<name>], [stop.<name>], [ground_motion], [film]: Scene::loads, and the keys of their numbers; needs the mechanism.
+/// All of load_tables, [load.<name>] to [film]: Scene::loads, and the keys of their numbers; needs the mechanism.
 void read_loads(Reading& reading);
 /// [modules], and which mechanism and law a scene names: modules that they are of are opened, and their keys are known from here on.
 void read_modules(Reading& reading);

@@ -368,7 +368,8 @@ std::vector<GivenLoad> given_loads(Reading& reading) {
         for (GivenLoad& load : LoadReader(node, kind, reading).read()) all.push_back(std::move(load));
     };
     MechanismInfo const& mechanism = info(reading.scene.parts.mechanism);
-    for (LoadKind const kind : {LoadKind::push, LoadKind::spring, LoadKind::stop, LoadKind::ground_motion, LoadKind::way_profile, LoadKind::way_ends, LoadKind::film}) {
+    for (std::size_t i = 0; i < std::size(load_tables); ++i) {
+        auto const kind = static_cast<LoadKind>(i);
         Node const* const table = reading.given(table_of(kind));
         if (table == nullptr) continue;
         if (module_of(reading.scene.parts.mechanism) != nullptr) {

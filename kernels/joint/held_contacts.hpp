@@ -109,18 +109,7 @@ private:
         auto const sums = face.order.template sums<all>(normal);
         Real const half(0.5);
         push.force.x = chosen(face, motion_.profile.push).applied(side, half * (sums.all + sums.along), half * (sums.all - sums.along));
-        push.torque = push.torque + cross((side * sums.all) * shift(), n);
-    }
-    /// Of the contact segment's middle from the slider's centre, what a force there adds to the torque, and the slider's velocity there.
-    SLIDEWAY_FN void add_shifted(Vec3<Real> const& force, auto& push) const {
-        if (motion_.is_profiled) push.torque = push.torque + cross(shift(), force);
-    }
-    SLIDEWAY_FN Vec3<Real> shift() const { return {segment_shift(motion_), Real(0.0), Real(0.0)}; }
-    SLIDEWAY_FN Vec3<Real> shifted(Vec3<Real> const& velocity, [[maybe_unused]] Vec3<Real> const& spin) const {
-        if constexpr (may_have_profile) {
-            if (motion_.is_profiled) return velocity + cross(spin, shift());
-        }
-        return velocity;
+        push.torque = push.torque + cross((side * sums.all) * motion_.middle(), n);
     }
 
     /// @tparam all or none of its apices touches beside the first two
@@ -145,7 +134,7 @@ private:
                                         negated(frame.across),
                                         frame.half_length,
                                         frame.half_across,
-                                        shifted(v, spin),
+                                        velocity_of_middle(motion_, v, spin),
                                         spin};
         Quad<Slip<Real>> slips;
         if (block_.friction) [[likely]] slips = StickSlipFriction::slips<all>(sliding, order, pressed(m.touching), p_.friction);
@@ -161,7 +150,7 @@ private:
             auto const friction = StickSlipFriction::load<all>(sliding, order, slips, f.normal);
             push.force = push.force + friction.force;
             push.torque = push.torque + friction.torque;
-            if constexpr (may_have_profile) add_shifted(friction.force, push);
+            add_torque_of_middle(motion_, friction.force, push.torque);
             if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
         }
         auto& w = result_.wrench;

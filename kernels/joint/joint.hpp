@@ -124,27 +124,15 @@ private:
             }
             auto const friction = friction_of<axis>({n, fms(side, Faces::half_main(p_.geometry), Faces::main(motion_)),
                                                      negated(Faces::across(motion_)), segment_half(motion_, p_.geometry.half_length),
-                                                     Faces::half_across(p_.geometry), shifted(v, spin), spin},
+                                                     Faces::half_across(p_.geometry), velocity_of_middle(motion_, v, spin), spin},
                                                     f.normal);
             push.force = push.force + friction.force;
             push.torque = push.torque + friction.torque;
-            if constexpr (may_have_profile) add_shifted(friction.force, push);
+            add_torque_of_middle(motion_, friction.force, push.torque);
             if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
             if (none(both)) [[likely]] break;
         }
         add_push<axis>(push, n, w);
-    }
-
-    /// Of the contact segment's middle from the slider's centre, what a force there adds to the torque, and the slider's velocity there.
-    SLIDEWAY_FN void add_shifted(Vec3<Real> const& force, auto& push) const {
-        if (motion_.is_profiled) push.torque = push.torque + cross(shift(), force);
-    }
-    SLIDEWAY_FN Vec3<Real> shift() const { return {segment_shift(motion_), Real(0.0), Real(0.0)}; }
-    SLIDEWAY_FN Vec3<Real> shifted(Vec3<Real> const& velocity, [[maybe_unused]] Vec3<Real> const& spin) const {
-        if constexpr (may_have_profile) {
-            if (motion_.is_profiled) return velocity + cross(spin, shift());
-        }
-        return velocity;
     }
 
     /// What the law says of a face.

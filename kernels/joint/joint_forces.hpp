@@ -55,7 +55,6 @@ private:
         Real const zero(0.0), one(1.0);
         auto const& g = p.geometry;
         auto const n = Faces::normal(motion), v = Faces::arranged(motion.velocity), spin = Faces::arranged_axial(motion.spin);
-        Vec3<Real> const shift{motion.shift, zero, zero};
         Real const per_area = one / Faces::contact(p.contact).area;
         auto const rates = Faces::rates(cross(spin, n), v, motion, g);
         for (int i = Faces::first_face; i < Faces::first_face + 2; ++i) {
@@ -70,7 +69,7 @@ private:
             along[i] = fma(motion.half_length, ((f.a + f.b) - (f.c + f.d)) * share, select(pushes, motion.shift, zero));
             across[i] = Faces::half_across(g) * (((f.a + f.d) - (f.b + f.c)) * share);
             SlidingFace<Real> const rubbing{n, fms(side, Faces::half_main(g), Faces::main(motion)), negated(Faces::across(motion)), motion.half_length,
-                                            Faces::half_across(g), v + cross(spin, shift), spin};
+                                            Faces::half_across(g), velocity_of_middle(motion, v, spin), spin};
             auto const slip = StickSlipFriction::velocities(rubbing);
             auto& speed = sliding[i] = {sqrt(dot(slip.a, slip.a)), sqrt(dot(slip.b, slip.b)), sqrt(dot(slip.c, slip.c)), sqrt(dot(slip.d, slip.d))};
             pv[i] = per_area * fma(f.c, speed.c, fma(f.d, speed.d, fma(f.a, speed.a, f.b * speed.b)));
@@ -83,7 +82,9 @@ private:
             if (!rubs) continue;
             auto const load = StickSlipFriction::load(rubbing, f, p.friction);
             friction = friction + Faces::arranged(load.force);
-            torque = torque + Faces::arranged_axial(load.torque + cross(shift, load.force));
+            auto of_friction = load.torque;
+            add_torque_of_middle(motion, load.force, of_friction);
+            torque = torque + Faces::arranged_axial(of_friction);
         }
     }
 };

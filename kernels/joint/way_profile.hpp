@@ -36,16 +36,11 @@ template <class Real> struct ContactSegment {
     /// @param x of the slider's centre along the way [m]
     SLIDEWAY_FN static ContactSegment of(LoadList const& list, Real const* numbers, Real x, Real half_length) {
         Real const zero(0.0), one(1.0);
-        ContactSegment segment{half_length, half_length, zero, zero};
-        for (int i = 0; i < list.count; ++i) {
-            Load const& load = list.loads[i];
-            if (load.kind != LoadKind::way_ends) continue;
-            Real const ahead = load.to == Load::none ? half_length : numbers[load.to] - x;
-            Real const behind = load.from == Load::none ? half_length : x - numbers[load.from];
-            segment.front_stays = select(ahead < half_length, one, zero), segment.rear_stays = select(behind < half_length, one, zero);
-            segment.front = min(ahead, half_length), segment.rear = min(behind, half_length);
-        }
-        return segment;
+        Load const* const ends = list.find(LoadKind::way_ends);
+        if (ends == nullptr) return {half_length, half_length, zero, zero};
+        Real const ahead = ends->to == Load::none ? half_length : numbers[ends->to] - x;
+        Real const behind = ends->from == Load::none ? half_length : x - numbers[ends->from];
+        return {min(ahead, half_length), min(behind, half_length), select(ahead < half_length, one, zero), select(behind < half_length, one, zero)};
     }
 };
 
@@ -112,17 +107,27 @@ template <class Real> struct ProfiledMotion : JointMotion<Real> {
     WayProfile<Real> profile;  // if so
     Mask<Real> has_left;       // the slider is on the way no more
 
+    /// Of the segment's middle from the slider's centre.
+    SLIDEWAY_FN Vec3<Real> middle() const { return {shift, Real(0.0), Real(0.0)}; }
     /// The force along the way [N] of normal forces on a face.
     SLIDEWAY_FN Real push(int axis, Real side, Real front, Real rear) const {
         return is_profiled ? profile.push[axis].applied(side, front, rear) : Real(0.0);
     }
 };
 
-/// Where the middle between the apices of both ends lies, before the slider's centre [m], and half the distance between them.
-template <class Real> SLIDEWAY_FN Real segment_shift(JointMotion<Real> const&) { return Real(0.0); }
-template <class Real> SLIDEWAY_FN Real segment_shift(ProfiledMotion<Real> const& motion) { return motion.shift; }
+/// Half the distance between the apices of both ends, the slider's velocity in the middle between them, and what a force there has of torque about the
+/// slider's centre.  Of a way without ends the middle is that centre.
 template <class Real> SLIDEWAY_FN Real segment_half(JointMotion<Real> const&, Real half_length) { return half_length; }
 template <class Real> SLIDEWAY_FN Real segment_half(ProfiledMotion<Real> const& motion, Real) { return motion.half_length; }
+template <class Real> SLIDEWAY_FN Vec3<Real> velocity_of_middle(JointMotion<Real> const&, Vec3<Real> const& velocity, Vec3<Real> const&) { return velocity; }
+template <class Real>
+SLIDEWAY_FN Vec3<Real> velocity_of_middle(ProfiledMotion<Real> const& motion, Vec3<Real> const& velocity, Vec3<Real> const& spin) {
+    return motion.is_profiled ? velocity + cross(spin, motion.middle()) : velocity;
+}
+template <class Real> SLIDEWAY_FN void add_torque_of_middle(JointMotion<Real> const&, Vec3<Real> const&, Vec3<Real>&) {}
+template <class Real> SLIDEWAY_FN void add_torque_of_middle(ProfiledMotion<Real> const& motion, Vec3<Real> const& force, Vec3<Real>& torque) {
+    if (motion.is_profiled) torque = torque + cross(motion.middle(), force);
+}
 
 /// What the joint sees of a slider's centre.
 template <class Real, class Laws, class Parameters>
