@@ -17,9 +17,11 @@ struct Place {
 };
 
 /// A state of a joint in another one: places from the middle between faces and velocities keep their share of the clearance, tilts that of the tighter
-/// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.
+/// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.  From or to a preload, which leaves no gap to have a share
+/// of, it begins in the middle.
 void put(Inputs& inputs, Inputs const& there, bool spatial) {
-    double const along_y = play_y(inputs) / play_y(there), along_z = play_z(inputs) / play_z(there);
+    auto const share = [](double now, double then) { return now > 0 && then > 0 ? now / then : 0; };
+    double const along_y = share(mean_clearance_y(inputs), mean_clearance_y(there)), along_z = share(mean_clearance_z(inputs), mean_clearance_z(there));
     double const tilt = spatial ? std::min(along_y, along_z) : along_y;
     inputs.y = to_middle_y(inputs) + along_y * (there.y - to_middle_y(there));
     inputs.z = to_middle_z(inputs) + along_z * (there.z - to_middle_z(there));

@@ -57,6 +57,35 @@ TEST_F(Sweep, ContinuedStartsWhereTheColumnBeforeEnded) {
     }
 }
 
+// A share of no gap would be anything: that of a slider that just fits lay 4 mm inside the way of the next column, or was NaN.
+TEST_F(Sweep, ContinuedBeginsInTheMiddleFromAndToAPreload) {
+    std::string const springs = R"(schema = 1
+[mechanism]
+crank_speed = "900 rpm"
+[contact]
+law = "kelvin_voigt"
+apex_stiffness = 1e6
+apex_damping = 100
+[study]
+kind = "sweep"
+members = 2
+parameter = "joint.clearance"
+values = ["0.2 mm", "0 mm", "0.2 mm", "-1 um", "-2 um", "0.1 mm"]
+transient_revolutions = 0
+revolutions = 1
+phase = "90 deg"
+exponents = 0
+quantities = ["energy_residual"]
+[study.vary]
+"initial.vy" = { dist = "unif", low = -1e-3, high = 1e-3 }
+)";
+    Outcome const outcome = run_scene(springs, {"--set", continued_key, "-o", "r.nc"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    ResultReader const file = results();
+    EXPECT_EQ(file.values("status"), std::vector<double>(12, 0));
+    for (double const residual : file.values("energy_residual")) EXPECT_LT(std::abs(residual), 1e-6);
+}
+
 TEST_F(Sweep, ContinuedGoesOnFromTheScenesStartAfterAFailure) {
     // The middle column's gap is a tenth of the others': it takes more steps than it may.
     std::string const values = "study.values=[\"0.5 mm\",\"0.05 mm\",\"0.5 mm\"]";
