@@ -6,6 +6,10 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// What the equations of a block have beside the least: each is a function of its own, in which the others are not even a place on the stack.
+enum class Extras { nothing, loads, profile };
+inline constexpr int extras_count = 3;
+
 /// What holds for all members of a block: the equations branch on it once for all lanes, and never select by it per lane.
 /// @tparam Laws how the contact law is called: `OneLaw`, `AnyLaw` or `LawFunctions`
 template <class Laws> struct Conditions {
@@ -46,8 +50,11 @@ template <class Laws> struct Conditions {
         return parts.damping == Damping::restitution;
     }
 
-    /// Whether nothing acts on the mechanism but weight and contacts, it moves at constant speed, and its slider's mass centre and pin lie in its hole's centre.
-    SLIDEWAY_FN bool is_plain() const { return loads.count == 0 && drive.by == DriveBy::speed && !offset_slider; }
+    /// Nothing where only weight and contacts act on the mechanism, it moves at constant speed, and its slider's mass centre and pin lie in its hole's centre.
+    SLIDEWAY_FN Extras extras() const {
+        if (way_profile) return Extras::profile;
+        return loads.count == 0 && drive.by == DriveBy::speed && !offset_slider ? Extras::nothing : Extras::loads;
+    }
     /// Whether there are switches that steps may end at.
     SLIDEWAY_FN bool can_locate_modes() const { return switches && !remembers; }
 };

@@ -12,12 +12,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "kernels/simd/instructions.hpp"
 
 #if defined(SLIDEWAY_SIMD)
 #include <bit>
-#include <type_traits>
+#include <utility>
 #include <xsimd/xsimd.hpp>
 #endif
 
@@ -104,6 +105,8 @@ template <int bit> SLIDEWAY_FN bool bit_of(double n) { return (detail::bits_of(n
 
 SLIDEWAY_FN double lane(double x, int) { return x; }
 SLIDEWAY_FN void set_lane(double& x, int, double value) { x = value; }
+template <class Real, class Number> requires std::is_same_v<Real, double>
+SLIDEWAY_FN double of_lanes(Number const& number) { return number(0); }
 SLIDEWAY_FN unsigned mask_bits(bool m) { return m ? 1u : 0u; }
 
 // ---- xsimd ----------------------------------------------------------------------------------------------------
@@ -188,6 +191,12 @@ template <class Arch> SLIDEWAY_FN void set_lane(Batch<Arch>& x, int index, doubl
     x = Batch<Arch>::load_aligned(values);
 }
 
+/// Of what a function says for each lane.
+template <class Real, class Number> requires (lanes<Real> > 1)
+SLIDEWAY_FN Real of_lanes(Number const& number) {
+    return [&]<int... i>(std::integer_sequence<int, i...>) { return Real{number(i)...}; }(std::make_integer_sequence<int, lanes<Real>>());
+}
+
 /// Bit i is the truth value of lane i.
 template <class Arch> SLIDEWAY_FN unsigned mask_bits(BatchMask<Arch> m) { return detail::Own<Arch>::mask_bits(m); }
 
@@ -201,6 +210,12 @@ template <class M> SLIDEWAY_FN bool none(M m) { return !any(m); }
 template <class Real> SLIDEWAY_FN Real round_even(Real x) {
     Real const shift(6755399441055744.0);  // 1.5 · 2^52
     return (x + shift) - shift;
+}
+
+/// Largest whole number that is not above x; |x| < 2^51.
+template <class Real> SLIDEWAY_FN Real rounded_down(Real x) {
+    Real const nearest = round_even(x);
+    return select(nearest > x, nearest - Real(1.0), nearest);
 }
 
 /// Truth value of every lane from one plain bool, which holds for the whole pack.

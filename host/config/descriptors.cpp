@@ -148,7 +148,7 @@ MechanismInfo const& info(Mechanism mechanism) { return mechanisms()[static_cast
 LawInfo const& info(Law law) { return laws()[static_cast<std::size_t>(law)]; }
 LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }
 
-bool may_be_rigid(Mechanism mechanism) { return static_cast<std::size_t>(mechanism) < std::size(mechanism_infos) && info(mechanism).may_be_rigid; }
+bool may_be_rigid(Mechanism mechanism) { return static_cast<std::size_t>(mechanism) < std::size(mechanism_infos); }
 
 std::string_view kind_of(Mechanism mechanism) {
     MechanismInfo const& of = info(mechanism);

@@ -6,6 +6,8 @@
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
+#include "kernels/loads/table_value.hpp"
+
 namespace slideway {
 namespace {
 
@@ -102,19 +104,26 @@ PieceFunction::PieceFunction(std::span<double const> places, std::span<double co
     find_cells();
 }
 
+std::vector<int> first_pieces(std::span<PieceTable::Piece const> pieces, PieceTable const& table) {
+    std::vector<int> first;
+    int piece = 0;
+    for (int cell = 0; cell < table.cells; ++cell) {
+        while (piece + 1 < table.count && static_cast<int>(cell_of(table, pieces[static_cast<std::size_t>(piece + 1)].from)) < cell) ++piece;
+        first.push_back(piece);
+    }
+    first.push_back(table.count - 1);
+    return first;
+}
+
 void PieceFunction::find_cells() {
-    first_.clear();
-    // As many cells as pieces, that a piece is next to found where its places are evenly spread.
-    if (not_finite()) {
-        first_.assign(pieces_.size(), 0);
-        return;
-    }
+    first_.assign(pieces_.size() + 1, 0);
     PieceTable const whole = table();
-    for (std::size_t i = 0, piece = 0; i < pieces_.size(); ++i) {
-        double const begin = whole.low + static_cast<double>(i) / whole.cells_per_unit;
-        while (piece + 1 < pieces_.size() && pieces_[piece + 1].from <= begin) ++piece;
-        first_.push_back(static_cast<int>(piece));
-    }
+    if (!not_finite()) first_ = first_pieces(pieces_, whole);
+    auto const is_off = [&](PieceTable::Piece const& piece) {
+        auto const place = static_cast<double>(&piece - pieces_.data()) - (piece.from - whole.low) * whole.cells_per_unit;
+        return !(std::abs(place) <= 1e-12);
+    };
+    is_even_ = std::ranges::none_of(pieces_, is_off);
 }
 
 std::optional<std::size_t> PieceFunction::not_finite() const {
@@ -205,6 +214,7 @@ PieceTable PieceFunction::table() const {
     table.low = pieces_.front().from, table.high = high_, table.repeats = repeats_, table.advance = advance_;
     table.first = first_.data(), table.cells = table.count;
     table.cells_per_unit = table.cells / (table.high - table.low);
+    table.is_even = is_even_;
     return table;
 }
 

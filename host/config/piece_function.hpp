@@ -24,6 +24,9 @@ struct PointFault {
     std::string reason, advice;
 };
 
+/// What PieceTable::first is of pieces; of the table the rest is known.
+std::vector<int> first_pieces(std::span<PieceTable::Piece const> pieces, PieceTable const& table);
+
 /// A function of one number.  It repeats itself, or stays outside as it is at its nearer end.
 class PieceFunction {
 public:
@@ -56,7 +59,7 @@ private:
     std::vector<PieceTable::Piece> pieces_;
     std::vector<int> first_;
     double high_, advance_ = 0;
-    bool repeats_;
+    bool repeats_, is_even_ = false;
 
     void find_cells();
     /// The piece of a place, how far behind its beginning that is, and how often the function has repeated there.

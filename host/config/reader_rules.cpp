@@ -30,7 +30,7 @@ std::string listed(MethodSet methods) {
 std::string rigid_mechanisms() {
     std::vector<std::string_view> rigid;
     for (std::size_t i = 0; i < mechanisms().size(); ++i) {
-        if (may_be_rigid(static_cast<Mechanism>(i))) rigid.push_back(mechanism_names()[i]);
+        if (may_be_rigid(static_cast<Mechanism>(i)) && mechanisms()[i].driven_form == nullptr) rigid.push_back(mechanism_names()[i]);
     }
     return fmt::format("{}", fmt::join(rigid, " or "));
 }

@@ -114,8 +114,6 @@ constexpr KeyRule rows[] = {
     {mechanism, "drive.interpolation", no_drive_table, excludes, of_table, give_table},
     {mechanism, "drive.repeats", no_drive_table, excludes, of_table, give_table},
 
-    {mechanism, "contact.law", [](R r) { return rigid(r) && info(r.scene.parts.mechanism).driven_form != nullptr; }, excludes,
-     "rigid contacts know no crank of a {kind} that turns freely", "use another law, drive.kind = speed or profile, or mechanism.kind = planar_slider_crank"},
     {mechanism, "contact.law", [](R r) { return rigid(r) && !may_be_rigid(r.scene.parts.mechanism); }, excludes,
      "the contacts of a {mechanism} give way", "use another law, or mechanism.kind = {rigid_mechanisms}"},
     {mechanism, "way", [](R r) { return !spatial(r); }, foreign},
@@ -150,6 +148,8 @@ constexpr KeyRule rows[] = {
      "a crank angle comes once a revolution", "remove it, or give study.section"},
     {study_kind, "study.kind", [](R r) { return asks_for_exponents(r) && !info(r.scene.parts.mechanism).has_exponents; }, excludes,
      "nothing drives a {mechanism}, and no exponents are computed of it", "use \"ensemble\" or \"poincare\""},
+    {study_kind, "study.kind", [](R r) { return asks_for_exponents(r) && rigid(r) && info(r.scene.parts.mechanism).driven_form != nullptr; }, excludes,
+     "with rigid contacts no exponents are computed of a {kind} whose crank turns freely", "use \"ensemble\", another contact.law, or mechanism.kind = planar_slider_crank"},
     {study_kind, "study.parameter", is_sweep, needs, "a sweep changes one key", "add parameter = \"joint.clearance\""},
     {study_kind, "study.from", no_values, needs, values_of_sweep, give_values},
     {study_kind, "study.to", no_values, needs, values_of_sweep, give_values},

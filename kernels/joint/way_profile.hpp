@@ -88,8 +88,8 @@ template <class Real> struct WayProfile {
 
 private:
     SLIDEWAY_FN static void add(Load const& load, Real const* numbers, Real at, Real (&lies)[face_count], Real (&rises)[face_count]) {
-        Real depth = at, slope = at;
-        table_values(load.table, at, depth, slope);
+        auto const table = table_point(load.table, at);
+        Real depth = table.value, slope = table.slope;
         if (load.scale != Load::none) depth = numbers[load.scale] * depth, slope = numbers[load.scale] * slope;
         for (int face = 0; face < face_count; ++face) {
             if ((load.faces >> face & 1) == 0) continue;

@@ -35,7 +35,7 @@ public:
     static_assert(ModelParts<Model, Real>::are_there);
     static_assert(holds_reals_only<Model>);
 
-    SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block), pack_(model) {
+    SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block, model), pack_(model) {
         // What is observed for the status alone is not written.
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;

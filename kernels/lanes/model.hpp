@@ -77,9 +77,9 @@ template <class Model, class Real> class ModelParts {
     static_assert(requires { bool{Model::has_crossings}; bool{Model::has_linearisation}; }, "has_crossings and has_linearisation: true or false");
     static_assert(requires(Model const& m, typename Model::Inputs const& inputs) { Parameters<double>{m.parameters(inputs)}; },
                   "parameters(inputs): of a member, in double");
-    static_assert(requires(typename Model::Inputs const& inputs, double* state) { Model::initial_state(inputs, state); },
+    static_assert(requires(Model const& m, typename Model::Inputs const& inputs, double* state) { m.initial_state(inputs, state); },
                   "initial_state(inputs, state): where a member starts, in double");
-    static_assert(requires(Parameters<double> const& p, double* scale) { Model::scales(p, scale); },
+    static_assert(requires(Model const& m, Parameters<double> const& p, double* scale) { m.scales(p, scale); },
                   "scales(parameters, scale): sizes of the state's components that the absolute tolerance is meant against");
     static_assert(requires(Model const& m, Real t, Real const* y, Parameters<Real> const& p, Memory<Real> const& memory, Real* rates, Report<Real>* report) {
         Faults<Real>{m.template derivative<true>(t, y, p, memory, rates, report)};

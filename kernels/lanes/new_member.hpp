@@ -19,12 +19,12 @@ template <class Model> struct NewMember {
         SLIDEWAY_EXPECT(member < block.members);
         auto const& inputs = block.inputs[member];
         r.constants.parameters = model.parameters(inputs);
-        Model::scales(r.constants.parameters, r.constants.scale);
+        model.scales(r.constants.parameters, r.constants.scale);
         auto& c = r.course = {};
         c.member = static_cast<double>(member);
         c.h = 1e-3 * block.settings.max_step;
         c.error_memory = step_control_start;
-        Model::initial_state(inputs, c.y);
+        model.initial_state(inputs, c.y);
         MemberClock const clock = block.clocks != nullptr ? block.clocks[member] : MemberClock{block.settings.end_time};
         SLIDEWAY_EXPECT(clock.end >= 0 && (block.stops.count == 0 || (clock.first_stop > 0 && clock.period > 0)));
         r.constants.end = clock.end;

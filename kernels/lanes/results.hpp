@@ -12,7 +12,7 @@ template <class Model> class Results {
 public:
     using Block = BlockOf<typename Model::Inputs>;
 
-    SLIDEWAY_HD explicit Results(Block& block) : block_(block), sampler_(block) {}
+    SLIDEWAY_HD Results(Block& block, Model const& model) : block_(block), sampler_(block, model) {}
 
     SLIDEWAY_HD std::size_t samples() const { return block_.samples; }
     SLIDEWAY_HD std::size_t stops() const { return block_.stops.count; }
@@ -128,7 +128,7 @@ public:
             }
             for (int i = 0; i < lanes<Real>; ++i) {
                 if (!holds(due, i)) continue;
-                sampler_.write(i, number(c.member, i), number(c.sample, i), state, report);
+                sampler_.write(i, number(c.member, i), number(c.sample, i), state, report, pack.model);
             }
             c.sample = c.sample + due_lanes;
         }

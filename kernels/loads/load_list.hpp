@@ -16,9 +16,11 @@ struct PieceTable {
     double low = 0, high = 0;  // it goes from here to there: beyond them it repeats, or stays as it is at the nearer end
     bool repeats = false;
     double advance = 0;  // what it is larger by each time that it repeats
-    int const* first = nullptr;  // [cells]: of equal parts of [low, high) the piece that holds the beginning
+    // [cells + 1], of equal parts of [low, high]: the last piece that begins in an earlier one.  What is in a cell is in a piece from first[cell] to first[cell + 1].
+    int const* first = nullptr;
     int cells = 0;
     double cells_per_unit = 0;  // cells/(high − low)
+    bool is_even = false;       // pieces are as long as cells, and where these are
 };
 
 enum class LoadKind {

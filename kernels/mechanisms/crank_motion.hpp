@@ -10,26 +10,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// How something moves that has one coordinate: place, velocity and acceleration, or angle, speed and its rate.
 template <class Real> struct GivenMotion { Real place, velocity, acceleration; };
 
-/// A drive's profile at a time.  Lanes look theirs up one by one.  @param jerk the acceleration's rate
-template <class Number> SLIDEWAY_FN GivenMotion<Number> looked_up(PieceTable const& table, Number const& t, Number& jerk) {
-    GivenMotion<Number> motion;
-    for (int i = 0; i < lanes<Number>; ++i) {
-        auto const point = table_point(table, lane(t, i));
-        set_lane(motion.place, i, point.value);
-        set_lane(motion.velocity, i, point.slope);
-        set_lane(motion.acceleration, i, point.bend);
-        set_lane(jerk, i, point.jerk);
-    }
-    return motion;
-}
+/// A drive's profile at a time.
 template <class Real> SLIDEWAY_NOINLINE GivenMotion<Real> profile_motion(PieceTable const& table, Real const& t) {
     if constexpr (is_tangent<Real>) {
-        auto jerk = t.value;
-        auto const motion = looked_up(table, t.value, jerk);
-        return {{motion.place, motion.velocity * t.slope}, {motion.velocity, motion.acceleration * t.slope}, {motion.acceleration, jerk * t.slope}};
+        auto const at = table_point(table, t.value);
+        return {{at.value, at.slope * t.slope}, {at.slope, at.bend * t.slope}, {at.bend, at.jerk * t.slope}};
     } else {
-        Real jerk;
-        return looked_up(table, t, jerk);
+        auto const at = table_point(table, t);
+        return {at.value, at.slope, at.bend};
     }
 }
 

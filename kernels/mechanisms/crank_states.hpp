@@ -7,10 +7,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// A slider whose crank turns as forces let it: behind the ten numbers of the state its angle θ and speed θ'.
-struct CrankStateBase : SliderBase {
-    static constexpr int size = 12;
-    template <class Real> using Linearisation = FreeSliderLinearisation<Real>;  // no contact is stiff against the crank
-
+struct CrankStateBase : TwelveStateBase {
     SLIDEWAY_HD static constexpr int state_of_series(int series) {
         if (series == static_cast<int>(Series::crank_angle)) return 10;
         if (series == static_cast<int>(Series::crank_angular_velocity)) return 11;
@@ -39,7 +36,6 @@ constexpr MechanismInfo crank_state_info(MechanismInfo info, char const* name) {
     info.always |= selections::of({Series::crank_angle, Series::crank_angular_velocity});
     info.keys |= groups_of(KeyGroup::turning);
     info.may_turn_freely = true;
-    info.may_be_rigid = false;
     info.on_cards = false;
     return info;
 }

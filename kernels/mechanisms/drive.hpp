@@ -39,11 +39,11 @@ template <class Drive> struct DrivenGuide {
         SLIDEWAY_FN GuidedCentre<Real> centre(SliderParameters<Real> const& p) const {
             Real const zero(0.0), one(1.0), lightness = one / p.slider_mass;
             constexpr bool free = Drive::is_free;
-            return {.free = free ? one : zero,
+            return {.slope = free ? one : zero,
                     .slope_y = zero,
                     .slope_z = zero,
-                    .masses = {free ? p.slider_mass : one, p.slider_mass, zero, p.slider_mass},
-                    .inverse = {free ? lightness : zero, lightness, zero, lightness},
+                    .masses = {free ? p.slider_mass : one, zero, zero, p.slider_mass, zero, p.slider_mass},
+                    .inverse = {free ? lightness : zero, zero, zero, lightness, zero, lightness},
                     .unloaded = accelerations({zero, zero, zero}, p),
                     .drive_x = free ? zero : vx,
                     .drive_y = zero,

@@ -35,7 +35,6 @@ struct MechanismInfo {
     unsigned prescribed = 0;    // components of the state that its drive prescribes, a bit each: neighbours cannot differ in them
     bool may_turn_freely = false;  // angle and speed of its crank are in the state: no drive need hold its speed, or prescribe anything
     char const* driven_form = nullptr;  // mechanism.kind of the same mechanism without them; nullptr where they are part of every state, or of none
-    bool may_be_rigid = true;   // it has kernels for rigid contacts
     bool has_exponents = true;  // members may have neighbours beside them
     bool on_cards = false;      // there are kernels for cards
     std::span<Key const> own_keys = {};  // of numbers of its own, on Inputs::mechanism_a … mechanism_p

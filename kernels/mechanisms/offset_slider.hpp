@@ -4,6 +4,7 @@
 #include "kernels/loads/drive_plan.hpp"
 #include "kernels/math/dense_solve.hpp"
 #include "kernels/math/vec3.hpp"
+#include "kernels/mechanisms/guided_centre.hpp"
 #include "kernels/mechanisms/mechanism_report.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/mechanisms/slider_turning.hpp"
@@ -117,27 +118,33 @@ template <class Real> struct OffsetSlider {
         report.energy = fma(p.slider_mass, kinetic - height, report.energy);
     }
 
-    /// Masses of (x', y', z', ωx, ωy, ωz) of the hole's centre, of which a guide that prescribes x' leaves that row alone.
-    /// @param of_pin masses of (x', y', z') of P, x' = `free` x' + κy y' + κz z'
-    template <class Matrix>
-    SLIDEWAY_FN void put_masses(Matrix const& of_pin, Real const& free, Translation<Real> const& slope, SliderTurning<Real> const& turning,
-                                SliderParameters<Real> const& p, Real (&masses)[6][6]) const {
+    /// Masses of (q', y', z', ωx, ωy, ωz), of the hole's centre, of which a guide that prescribes q' leaves that row alone.
+    /// @param guided how P answers
+    SLIDEWAY_FN void put_masses(GuidedCentre<Real> const& guided, SliderTurning<Real> const& turning, SliderParameters<Real> const& p,
+                                Real (&masses)[6][6]) const {
         Real const zero(0.0), one(1.0);
         auto const& axes = turning.axes;
-        Vec3<Real> const at_pin[6] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}, cross(axes.x, pin), cross(axes.y, pin), cross(axes.z, pin)};
+        auto const& of_pin = guided.masses;
+        // Of (q', y', z') of P: its turning about the hole's centre moves it across the way.
+        auto const across = [&](Vec3<Real> const& axis) {
+            auto const moved = cross(axis, pin);
+            return Vec3<Real>{zero, moved.y, moved.z};
+        };
+        Vec3<Real> const at_pin[6] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}, across(axes.x), across(axes.y), across(axes.z)};
         Vec3<Real> const none{zero, zero, zero}, at_centre[6] = {none, none, none, turned_x, turned_y, turned_z};
         auto const moved = [&](int i) {
             auto const& v = at_pin[i];
-            return Vec3<Real>{fma(slope.y, v.y, fma(slope.z, v.z, i == 0 ? free : zero)), v.y, v.z};
+            return Vec3<Real>{fma(guided.slope, v.x, fma(guided.slope_y, v.y, guided.slope_z * v.z)), v.y, v.z};
         };
         for (int i = 0; i < 6; ++i) {
-            Real const y = fma(of_pin.yy, at_pin[i].y, of_pin.yz * at_pin[i].z), z = fma(of_pin.yz, at_pin[i].y, of_pin.zz * at_pin[i].z);
+            auto const& v = at_pin[i];
+            Vec3<Real> const momentum{fma(of_pin.qq, v.x, fma(of_pin.qy, v.y, of_pin.qz * v.z)), fma(of_pin.qy, v.x, fma(of_pin.yy, v.y, of_pin.yz * v.z)),
+                                      fma(of_pin.qz, v.x, fma(of_pin.yz, v.y, of_pin.zz * v.z))};
             for (int j = 0; j < 6; ++j) {
                 Real const coupled = dot(moved(i) + at_centre[i], at_centre[j]) + dot(at_centre[i], moved(j));
-                masses[i][j] = fma(p.slider_mass, coupled, fma(y, at_pin[j].y, z * at_pin[j].z));
+                masses[i][j] = fma(p.slider_mass, coupled, dot(momentum, at_pin[j]));
             }
         }
-        masses[0][0] = masses[0][0] + of_pin.xx;
         masses[3][3] = masses[3][3] + p.inertia.x;
         masses[4][4] = masses[4][4] + p.inertia.y;
         masses[5][5] = masses[5][5] + p.inertia.z;

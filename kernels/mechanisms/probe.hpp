@@ -72,7 +72,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             set_lane(t, i, at_start ? 0 : table.times[row]);
             load_lane(p, i, of_row);
             double start[size];
-            Model::initial_state(table.inputs[row], start);
+            model.initial_state(table.inputs[row], start);
             for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);
         }
         auto const faults = telling.template derivative<true>(t, state, p, memory, rates, &report);

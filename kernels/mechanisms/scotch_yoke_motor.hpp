@@ -50,6 +50,19 @@ struct YokeOnMotor : DrivenGuide<YokeOnMotor> {
             Real const lightness = Real(1.0) / p.slider_mass;
             return {fma(slope_, turning_, bend), fma(force.y, lightness, p.gravity_y), fma(force.z, lightness, p.gravity_z)};
         }
+        /// x' = x_θ θ', and no drive does anything in an impact.
+        SLIDEWAY_FN GuidedCentre<Real> centre(SliderParameters<Real> const& p) {
+            Real const zero(0.0), one(1.0), lightness = one / p.slider_mass, turned = fma(p.slider_mass * slope_, slope_, p.motor.inertia);
+            return {.slope = slope_,
+                    .slope_y = zero,
+                    .slope_z = zero,
+                    .masses = {turned, zero, zero, p.slider_mass, zero, p.slider_mass},
+                    .inverse = {one / turned, zero, zero, lightness, zero, lightness},
+                    .unloaded = accelerations({zero, zero, zero}, p),
+                    .drive_x = zero,
+                    .drive_y = zero,
+                    .driven = zero};
+        }
         /// What a force changes of the acceleration.
         SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& force, SliderParameters<Real> const& p) const {
             Real const lightness = Real(1.0) / p.slider_mass;

@@ -50,6 +50,15 @@ struct SliderBase {
     }
 };
 
+/// What the lanes of several bases look up of one: they are compiled for a number of states.
+template <class Parameters> struct StateFunctions {
+    void (*scales)(Parameters const&, double*) = nullptr;
+    void (*start)(Inputs const&, double*) = nullptr;
+    int (*of_series)(int) = nullptr;
+
+    template <class Base> static constexpr StateFunctions of() { return {&Base::template scales<double>, &Base::initial_state, &Base::state_of_series}; }
+};
+
 /// The way of a mechanism without crank and rod passes through (0, offset_y, offset_z).
 SLIDEWAY_HD inline SliderParameters<double> parameters_without_rod(Inputs const& in) {
     auto p = slider_parameters(in);
@@ -59,12 +68,15 @@ SLIDEWAY_HD inline SliderParameters<double> parameters_without_rod(Inputs const&
     return p;
 }
 
-/// A slider free along the way too.  The way passes through (0, offset_y, offset_z); speeds are counted by the fall through the clearance,
-/// √(g c).
-struct FreeSliderBase : SliderBase {
+/// A slider with two numbers more behind its ten: a place and its rate, which no contact is stiff against.
+struct TwelveStateBase : SliderBase {
     static constexpr int size = 12;
     template <class Real> using Linearisation = FreeSliderLinearisation<Real>;
+};
 
+/// A slider free along the way too.  The way passes through (0, offset_y, offset_z); speeds are counted by the fall through the clearance,
+/// √(g c).
+struct FreeSliderBase : TwelveStateBase {
     SLIDEWAY_HD static constexpr int state_of_series(int series) { return series < size ? series : -1; }
 
     template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {

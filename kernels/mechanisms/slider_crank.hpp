@@ -156,11 +156,11 @@ struct CrankAndRod {
         SLIDEWAY_FN GuidedCentre<Real> centre(SliderParameters<Real> const& p) const {
             Real const zero(0.0), one(1.0), ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
             Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
-            return {.free = zero,
+            return {.slope = zero,
                     .slope_y = ky_,
                     .slope_z = kz_,
-                    .masses = {one, p.mass * ky2, p.mass * kyz, p.mass * kz2},
-                    .inverse = {zero, kz2 * scale, negated(kyz * scale), ky2 * scale},
+                    .masses = {one, zero, zero, p.mass * ky2, p.mass * kyz, p.mass * kz2},
+                    .inverse = {zero, zero, zero, kz2 * scale, negated(kyz * scale), ky2 * scale},
                     .unloaded = accelerations({zero, zero, zero}, p),
                     .drive_x = this->pin_.vx,
                     .drive_y = this->pin_.vy,

@@ -47,6 +47,23 @@ struct CrankAndRodOnMotor {
             turning_ = a.turning;
             return a.centre;
         }
+        /// No drive does anything in an impact.
+        SLIDEWAY_FN GuidedCentre<Real> centre(SliderParameters<Real> const& p) {
+            Real const zero(0.0);
+            Elimination const e(this->pin_.x, this->pin_.y, ky_, kz_, p);
+            auto const& m = e.masses;
+            Real const light = Real(1.0) / e.left;
+            return {.slope = m.slope,
+                    .slope_y = ky_,
+                    .slope_z = kz_,
+                    .masses = {m.own, m.by_y, m.by_z, p.mass * e.ky2, p.mass * e.kyz, p.mass * e.kz2},
+                    .inverse = {light, negated(e.to_y * light), negated(e.to_z * light), fma(e.to_y * e.to_y, light, e.kz2 * e.scale),
+                                fms(e.to_y * e.to_z, light, e.kyz * e.scale), fma(e.to_z * e.to_z, light, e.ky2 * e.scale)},
+                    .unloaded = accelerations({zero, zero, zero}, p),
+                    .drive_x = zero,
+                    .drive_y = zero,
+                    .driven = zero};
+        }
         /// What a force changes of the acceleration.
         SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& force, SliderParameters<Real> const& p) const {
             return solved({fma(ky_, force.x, force.y), fma(kz_, force.x, force.z), force.x}, Real(0.0), Real(0.0), p).centre;
@@ -75,20 +92,28 @@ struct CrankAndRodOnMotor {
         using RodOnPin<Real>::ky_, RodOnPin<Real>::kz_;
 
         /// Three symmetric equations, of (θ, y, z); those of y and z are eliminated first.
+        struct Elimination {
+            TurningMasses<Real> masses;
+            Real ky2, kz2, kyz, scale, to_y, to_z, left;
+
+            SLIDEWAY_FN Elimination(Real x, Real y, Real ky, Real kz, SliderParameters<Real> const& p) : masses(x, y, ky, kz, p) {
+                Real const one(1.0);
+                ky2 = fma(ky, ky, one), kz2 = fma(kz, kz, one), kyz = ky * kz;
+                scale = one / (p.mass * fma(kz, kz, ky2));
+                to_y = fms(kz2, masses.by_y, kyz * masses.by_z) * scale, to_z = fms(ky2, masses.by_z, kyz * masses.by_y) * scale;
+                left = fnma(to_z, masses.by_z, fnma(to_y, masses.by_y, masses.own));
+            }
+        };
         struct Solved {
             Real turning;
             Vec3<Real> centre;
         };
         SLIDEWAY_FN Solved solved(typename RodOnPin<Real>::Felt const& f, Real torque, Real bias, SliderParameters<Real> const& p) const {
-            Real const one(1.0);
-            TurningMasses<Real> const m(this->pin_.x, this->pin_.y, ky_, kz_, p);
-            Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
-            Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
-            Real const to_y = fms(kz2, m.by_y, kyz * m.by_z) * scale, to_z = fms(ky2, m.by_z, kyz * m.by_y) * scale;
-            Real const left = fnma(to_z, m.by_z, fnma(to_y, m.by_y, m.own));
-            Real const turning = fnma(to_z, f.z, fnma(to_y, f.y, fma(m.slope, f.pull, torque))) / left;
+            Elimination const e(this->pin_.x, this->pin_.y, ky_, kz_, p);
+            auto const& m = e.masses;
+            Real const turning = fnma(e.to_z, f.z, fnma(e.to_y, f.y, fma(m.slope, f.pull, torque))) / e.left;
             Real const fy = fnma(m.by_y, turning, f.y), fz = fnma(m.by_z, turning, f.z);
-            Real const ay = fms(kz2, fy, kyz * fz) * scale, az = fms(ky2, fz, kyz * fy) * scale;
+            Real const ay = fms(e.kz2, fy, e.kyz * fz) * e.scale, az = fms(e.ky2, fz, e.kyz * fy) * e.scale;
             return {turning, {fma(m.slope, turning, fma(ky_, ay, fma(kz_, az, bias))), ay, az}};
         }
 

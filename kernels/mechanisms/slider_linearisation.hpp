@@ -3,6 +3,7 @@
 #include "kernels/joint/attitude.hpp"
 #include "kernels/joint/joint_stiffness.hpp"
 #include "kernels/math/dense_solve.hpp"
+#include "kernels/mechanisms/guided_centre.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -25,9 +26,12 @@ template <class Real> struct SliderLinearisation {
     /// Takes the masses of a slider whose turning moves its pin or its centre of mass.  @param slope κ of the guide  @tparam free x' is, too
     template <bool free, class Offset, class Turning, class Parameters>
     SLIDEWAY_FN void couple(Offset const& offset, Translation<Real> const& slope, Turning const& turning, Parameters const& p) {
-        struct { Real xx, yy, yz, zz; } const of_pin{free ? p.slider_mass : Real(1.0), mass_y, mass_yz, mass_z};
+        Real const zero(0.0);
+        GuidedCentre<Real> of_pin;
+        of_pin.slope = Real(free ? 1.0 : 0.0), of_pin.slope_y = slope.y, of_pin.slope_z = slope.z;
+        of_pin.masses = {free ? p.slider_mass : Real(1.0), zero, zero, mass_y, mass_yz, mass_z};
         Real six[6][6];
-        offset.put_masses(of_pin, Real(free ? 1.0 : 0.0), slope, turning, p, six);
+        offset.put_masses(of_pin, turning, p, six);
         // x' gives way; where it is prescribed nothing stands beside its own.
         Real const inverse = Real(1.0) / six[0][0];
         for (int i = 0; i < 5; ++i) {

@@ -32,8 +32,10 @@ template <class Real> struct SliderLoads {
         return {{zero, zero, zero}, {zero, zero, zero}, zero, zero, zero, zero, zero, zero, zero, zero, zero};
     }
 
+    /// @tparam with_powers also powers and potentials, without which the rest has the same bits
     /// @param crank angle and speed of the crank  @param position, velocity of the slider's centre, along the axes of the ground
-    SLIDEWAY_NOINLINE static SliderLoads of(LoadList const& list, Real t, GivenMotion<Real> const& crank, Vec3<Real> const& position, Vec3<Real> const& velocity,
+    template <bool with_powers>
+    SLIDEWAY_FN static SliderLoads of(LoadList const& list, Real t, GivenMotion<Real> const& crank, Vec3<Real> const& position, Vec3<Real> const& velocity,
                                             SliderTurning<Real> const& turning, SliderParameters<Real> const& p) {
         LoadArguments<Real> const arguments{crank.place, t, position.x, velocity.x, crank.velocity};
         auto sum = none();
@@ -41,10 +43,11 @@ template <class Real> struct SliderLoads {
             Load const& load = list.loads[i];
             if (load.kind == LoadKind::way_profile || load.kind == LoadKind::way_ends) continue;  // the joint has it
             LoadNumbers<Real> const numbers(load, p.load, arguments);
-            if (load.kind == LoadKind::push) sum.add_push(load, numbers, velocity, turning);
-            else if (load.kind == LoadKind::ground_motion) sum.add_ground(numbers.scaled(load.force), velocity, turning, arguments.crank_angle, p);
-            else if (load.kind != LoadKind::film) sum.add_element(load, numbers, position, velocity, turning);  // which OilFilm has
+            if (load.kind == LoadKind::push) sum.template add_push<with_powers>(load, numbers, velocity, turning);
+            else if (load.kind == LoadKind::ground_motion) sum.template add_ground<with_powers>(numbers.scaled(load.force), velocity, turning, arguments.crank_angle, p);
+            else if (load.kind != LoadKind::film) sum.template add_element<with_powers>(load, numbers, position, velocity, turning);  // which OilFilm has
         }
+        if constexpr (!with_powers) return sum;
         sum.crank_power = sum.crank_torque * crank.velocity;
         Real const of_pin = sum.pin_torque * crank.velocity;
         sum.power = sum.power + (sum.crank_power - of_pin);
@@ -73,24 +76,23 @@ template <class Real> struct SliderLoads {
     }
 
 private:
-    SLIDEWAY_FN void add_push(Load const& load, LoadNumbers<Real> const& numbers, Vec3<Real> const& velocity, SliderTurning<Real> const& turning) {
+    template <bool with_powers> SLIDEWAY_FN void add_push(Load const& load, LoadNumbers<Real> const& numbers, Vec3<Real> const& velocity, SliderTurning<Real> const& turning) {
         auto const& axes = turning.axes;
         auto along = numbers.scaled(load.force), twist = numbers.scaled(load.torque);
-        auto const point = numbers.as_given(load.point);
         if (load.turns_with_slider) {
             force = force + from_slider(axes, along);
         } else {
             force = force + along;
             along = to_slider(axes, along), twist = to_slider(axes, twist);
         }
-        twist = twist + cross(point, along);
+        twist = twist + cross(numbers.as_given(load.point), along);
         torque = torque + twist;
-        power = power + (dot(along, to_slider(axes, velocity)) + dot(twist, turning.omega));
+        if constexpr (with_powers) power = power + (dot(along, to_slider(axes, velocity)) + dot(twist, turning.omega));
         crank_torque = crank_torque + numbers.scaled(load.crank_torque);
     }
 
     /// −a of the ground on the masses of slider and rod, the rod's at its ends as its weight.
-    SLIDEWAY_FN void add_ground(Vec3<Real> const& acceleration, Vec3<Real> const& velocity, SliderTurning<Real> const& turning, Real crank_angle,
+    template <bool with_powers> SLIDEWAY_FN void add_ground(Vec3<Real> const& acceleration, Vec3<Real> const& velocity, SliderTurning<Real> const& turning, Real crank_angle,
                                 SliderParameters<Real> const& p) {
         Real const at_slider = fma(p.rod_mass, p.rod_mass_center, p.slider_mass), at_pin = fnma(p.rod_mass, p.rod_mass_center, p.rod_mass);
         auto const on_slider = negated(at_slider) * acceleration;
@@ -99,7 +101,7 @@ private:
         auto const along = to_slider(turning.axes, acceleration);
         auto const twist = negated(p.slider_mass) * cross(p.mass_center, along) - p.rod_mass * p.rod_mass_center * cross(p.pin, along);
         torque = torque + twist;
-        ground_power = ground_power + (dot(on_slider, velocity) + dot(twist, turning.omega));
+        if constexpr (with_powers) ground_power = ground_power + (dot(on_slider, velocity) + dot(twist, turning.omega));
         auto const crank = sincos(crank_angle);
         Real const lever = fms(crank.sin, acceleration.x, crank.cos * acceleration.y), of_pin = at_pin * p.crank_length * lever;
         pin_torque = pin_torque + of_pin;
@@ -107,13 +109,14 @@ private:
         crank_weight = fma(p.crank_moment, lever, crank_weight);
     }
 
-    SLIDEWAY_FN void add_element(Load const& load, LoadNumbers<Real> const& numbers, Vec3<Real> const& position, Vec3<Real> const& velocity,
+    template <bool with_powers> SLIDEWAY_FN void add_element(Load const& load, LoadNumbers<Real> const& numbers, Vec3<Real> const& position, Vec3<Real> const& velocity,
                                  SliderTurning<Real> const& turning) {
         auto const point = numbers.as_given(load.point);
         auto const arm = from_slider(turning.axes, point);
         auto const element = ElementForce<Real>::of(load, numbers, position + arm, velocity + cross(turning.spin, arm));
         force = force + element.force;
         torque = torque + cross(point, to_slider(turning.axes, element.force));
+        if constexpr (!with_powers) return;
         potential = potential + element.potential;
         spring_loss = spring_loss + element.loss;
     }

@@ -35,11 +35,18 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     /// δ' [m/s] of the pair whose depth the memory has from a clock, if it has.
     /// @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real, class Laws>
-    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, Numbers<Real> const& p,
-                                                     ContactMemory<Real> const& memory, Conditions<Laws> const& block,
-                                                     Real* rates, SliderReport<Real>* report) {
-        if (!block.is_plain()) return loaded_derivative<Full>(t, s, p, memory, block, rates, report);
-        return evaluate<Full, false>(t, s, p, memory, block, rates, report);
+    SLIDEWAY_FN static Faults<Real> derivative(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
+                                               Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
+        auto const extras = block.extras();
+        if (extras == Extras::nothing) return derivative_with<Full, Extras::nothing>(t, s, p, memory, block, rates, report);
+        if (extras == Extras::loads) return derivative_with<Full, Extras::loads>(t, s, p, memory, block, rates, report);
+        return derivative_with<Full, Extras::profile>(t, s, p, memory, block, rates, report);
+    }
+    /// The same, of a block with these extras.
+    template <bool Full, Extras has, class Real, class Laws>
+    SLIDEWAY_NOINLINE static Faults<Real> derivative_with(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
+                                                          Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
+        return evaluate<Full, has>(t, s, p, memory, block, rates, report);
     }
 
     /// Linearises it about one state; the same arguments as the derivative.  NaN where that has a fault.
@@ -124,22 +131,17 @@ private:
         else return false;
     }();
 
-    /// Under loads, or another drive, a function of its own: what a scene does not have is not even a place on the stack.
-    template <bool Full, class Real, class Laws>
-    SLIDEWAY_NOINLINE static Faults<Real> loaded_derivative(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
-                                                            Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
-        return evaluate<Full, true>(t, s, p, memory, block, rates, report);
-    }
-    /// What the joint sees: without loads a way that is straight and has no ends.  No lambda, which would have all of it lie in memory.
-    template <bool loaded, class Real, class Laws>
+    /// What the joint sees: without a profile a way that is straight and has no ends.  No lambda, which would have all of it lie in memory.
+    template <bool profiled, class Real, class Laws>
     SLIDEWAY_FN static auto seen(Conditions<Laws> const& block, SliderTurning<Real> const& turning, Vec3<Real> const& position, Vec3<Real> const& velocity,
                                  Numbers<Real> const& p) {
-        if constexpr (loaded) return motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
+        if constexpr (profiled) return motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
         else return joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, p.joint.way);
     }
-    template <bool Full, bool loaded, class Real, class Laws>
+    template <bool Full, Extras has, class Real, class Laws>
     SLIDEWAY_FN static Faults<Real> evaluate(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
                                              Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
+        constexpr bool loaded = has != Extras::nothing, profiled = has == Extras::profile;
         auto faults = Faults<Real>::none();
         DrivePlan drive;
         if constexpr (loaded) drive = block.drive;
@@ -149,10 +151,10 @@ private:
         auto const& way = p.joint.way;
         Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
         if constexpr (loaded) at.leave_pin(position.x, velocity.x);
-        auto motion = seen<loaded>(block, turning, position, velocity, p);
+        auto motion = seen<profiled>(block, turning, position, velocity, p);
         Joint<Real, Laws, Full, decltype(motion)> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
         auto wrench = joint.wrench(faults.contact_domain);
-        if constexpr (loaded) faults.geometry = faults.geometry | motion.has_left;
+        if constexpr (profiled) faults.geometry = faults.geometry | motion.has_left;
         [[maybe_unused]] Real film_loss(0.0);
         if constexpr (loaded) {
             if (block.film) {
@@ -166,7 +168,7 @@ private:
         auto force = to_inertial(block.misaligned_way, wrench.force, way);
         [[maybe_unused]] SliderLoads<Real> loads;
         if constexpr (loaded) {
-            loads = SliderLoads<Real>::of(block.loads, t, crank_of<Guide>(t, s, p, drive), position, velocity, turning, p);
+            loads = SliderLoads<Real>::template of<Full>(block.loads, t, crank_of<Guide>(t, s, p, drive), position, velocity, turning, p);
             if constexpr (requires { guide.turn(loads.turning()); }) guide.turn(loads.turning());
             force = force + loads.force;
             wrench.torque = wrench.torque + from_slider(motion.axes, loads.torque);

@@ -30,7 +30,7 @@ template <class Laws> struct ConditionsOfBlock : ModelDefaults {
     }
 };
 
-/// Whether a base finds the components of a mechanism's state among the series, where the mechanism's info says that they are.
+/// Whether a mechanism's base finds the components of its state among the series, where the mechanism's info says that they are.
 template <class Base> constexpr bool finds_state(MechanismInfo const& info) {
     if constexpr (requires { Base::state_of_series(0); }) {
         for (int i = 0; i < info.states; ++i) {

@@ -20,8 +20,9 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
     using Derivative = Faults<Real>(Real, Real const*, Parameters const&, Memory const&, Block const&, Real*, Report*);
 
     typename Base::template Parameters<double> (*parameters)(Inputs const&) = nullptr;
-    Derivative* lean = nullptr;
-    Derivative* full = nullptr;
+    StateFunctions<typename Base::template Parameters<double>> state;
+    Derivative* lean[extras_count] = {};  // by what a block has
+    Derivative* full[extras_count] = {};
     void (*forces)(Real, Real const*, Real const*, Parameters const&, Block const&, SliderReport<Real> const&, JointForces<Real>&) = nullptr;
     Real (*gap)(Real, Real const*, Parameters const&, Block const&, Apex) = nullptr;
     // Of mechanisms with a linearisation and contact patterns.
@@ -31,17 +32,14 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
     Translation<Real> (*way_bend)(Real, Real, Real const*, Parameters const&, DrivePlan const&) = nullptr;
 
     template <class Mechanism> static constexpr MechanismFunctions of() {
-        static_assert(finds_state<Base>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
+        static_assert(finds_state<Mechanism>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
         using Laws = LawFunctions<Real>;
         MechanismFunctions functions;
         functions.parameters = &Mechanism::parameters;
-        if constexpr (Signals::count == 0) {
-            functions.lean = &Mechanism::template derivative<false, Real, Laws>;
-            functions.full = &Mechanism::template derivative<true, Real, Laws>;
-        } else {
-            functions.lean = &derivative_of<Mechanism, false, Real, Laws, Parameters, Memory, Report>;
-            functions.full = &derivative_of<Mechanism, true, Real, Laws, Parameters, Memory, Report>;
-        }
+        functions.state = StateFunctions<typename Base::template Parameters<double>>::template of<Mechanism>();
+        put_derivatives<Mechanism, Extras::nothing>(functions);
+        put_derivatives<Mechanism, Extras::loads>(functions);
+        put_derivatives<Mechanism, Extras::profile>(functions);
         if constexpr (LanesOf<Base>::tells_forces) functions.forces = &slideway::tell_forces<Mechanism, Real, Laws, Parameters>;
         functions.gap = &Mechanism::template gap<Real, Laws>;
         if constexpr (LanesOf<Base>::has_linearisation) {
@@ -51,6 +49,23 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
             functions.way_bend = &Mechanism::template way_bend<Real>;
         }
         return functions;
+    }
+
+private:
+    template <class Mechanism, Extras has> static constexpr void put_derivatives(MechanismFunctions& functions) {
+        using Laws = LawFunctions<Real>;
+        auto& lean = functions.lean[static_cast<int>(has)];
+        auto& full = functions.full[static_cast<int>(has)];
+        if constexpr (Signals::count > 0) {
+            lean = &derivative_of<Mechanism, false, Real, Laws, Parameters, Memory, Report>;
+            full = &derivative_of<Mechanism, true, Real, Laws, Parameters, Memory, Report>;
+        } else if constexpr (requires { &Mechanism::template derivative_with<false, has, Real, Laws>; }) {
+            lean = &Mechanism::template derivative_with<false, has, Real, Laws>;
+            full = &Mechanism::template derivative_with<true, has, Real, Laws>;
+        } else {
+            lean = &Mechanism::template derivative<false, Real, Laws>;
+            full = &Mechanism::template derivative<true, Real, Laws>;
+        }
     }
 };
 
@@ -70,18 +85,23 @@ struct MechanismTable : Base, ForceLanes<Base, Signals>, ConditionsOfBlock<LawFu
     template <class Number> using Report = typename ForceLanes<Base, Signals>::template Report<Number>;
 
     Functions functions;
+    typename Functions::Derivative *lean, *full;
 
     constexpr MechanismTable(Functions const& of_mechanism, Conditions<LawFunctions<Real>> const& conditions)
-        : ConditionsOfBlock<LawFunctions<Real>>{{}, conditions}, functions(of_mechanism) {}
+        : ConditionsOfBlock<LawFunctions<Real>>{{}, conditions}, functions(of_mechanism),
+          lean(functions.lean[static_cast<int>(conditions.extras())]), full(functions.full[static_cast<int>(conditions.extras())]) {}
 
     Parameters<double> parameters(Inputs const& inputs) const { return functions.parameters(inputs); }
+    void scales(Parameters<double> const& p, double* scale) const { functions.state.scales(p, scale); }
+    void initial_state(Inputs const& inputs, double* state) const { functions.state.start(inputs, state); }
+    int state_of_series(int series) const { return functions.state.of_series(series); }
     template <bool Full>
     Faults<Real> derivative(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
                             Real* rates, Report<Real>* report) const {
         if constexpr (!Full || !LanesOf<Base>::tells_forces) {
-            return (Full ? functions.full : functions.lean)(t, state, p, memory, this->block, rates, report);
+            return (Full ? full : lean)(t, state, p, memory, this->block, rates, report);
         } else {
-            auto const faults = functions.full(t, state, p, memory, this->block, rates, report);
+            auto const faults = full(t, state, p, memory, this->block, rates, report);
             if (this->block.tells_forces && !this->block.powers_alone) functions.forces(t, state, rates, p, this->block, *report, report->forces);
             return faults;
         }

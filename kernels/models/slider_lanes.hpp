@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/mechanisms/crank_states.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
 #include "kernels/observers/acceleration_record.hpp"
 #include "kernels/observers/energy_audit.hpp"
@@ -54,8 +53,7 @@ template <class Base> struct SpatialLanes : ContactLanes<Base> {
 };
 
 template <> struct LanesOf<SliderBase> : SpatialLanes<SliderBase> {};
-template <> struct LanesOf<FreeSliderBase> : SpatialLanes<FreeSliderBase> {};
-template <> struct LanesOf<CrankStateBase> : SpatialLanes<CrankStateBase> {};
+template <> struct LanesOf<TwelveStateBase> : SpatialLanes<TwelveStateBase> {};
 
 /// What the lanes need of a mechanism that has signals of its own, or NoSignals.
 template <class Base, class Signals> struct SignalLanes : LanesOf<Base> {

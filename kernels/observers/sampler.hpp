@@ -7,13 +7,13 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Which component of a model's state a series is, from 0; -1 if none.
-template <class Model> SLIDEWAY_HD constexpr int state_of_series(int series) {
-    constexpr bool says = requires { Model::state_of_series(series); };
+template <class Model> SLIDEWAY_HD constexpr int state_of_series([[maybe_unused]] Model const& model, int series) {
+    constexpr bool says = requires { model.state_of_series(series); };
     static_assert(says || Model::series == Model::size,
                   "a model whose samples hold more than its state says where its state is: it lacks state_of_series(series), which a mechanism has of "
                   "its base (kernels/mechanisms/slider_base.hpp)");
     if constexpr (says) {
-        return Model::state_of_series(series);
+        return model.state_of_series(series);
     } else {
         return series;
     }
@@ -22,11 +22,11 @@ template <class Model> SLIDEWAY_HD constexpr int state_of_series(int series) {
 /// Writes the time series of a pack's members into the block's memory.
 template <class Model> class Sampler {
 public:
-    SLIDEWAY_HD explicit Sampler(BlockBase const& block) : block_(block) {
+    SLIDEWAY_HD Sampler(BlockBase const& block, Model const& model) : block_(block) {
         for (int i = 0; i < Model::series; ++i) {
             if (!((block.series >> i) & 1u)) continue;
             ++selected_;
-            beyond_state_ = beyond_state_ || state_of_series<Model>(i) < 0;
+            beyond_state_ = beyond_state_ || state_of_series(model, i) < 0;
         }
     }
 
@@ -35,14 +35,14 @@ public:
 
     /// @param report read only where a series beyond the state is selected.
     template <class Real>
-    SLIDEWAY_HD void write(int index, std::size_t member, std::size_t sample, Real const* state,
-                           typename Model::template Report<Real> const& report) const {
+    SLIDEWAY_HD void write(int index, std::size_t member, std::size_t sample, Real const* state, typename Model::template Report<Real> const& report,
+                           Model const& model) const {
         SLIDEWAY_EXPECT(member < block_.members && sample < block_.samples);
         std::size_t row = 0;
         for (int i = 0; i < Model::series; ++i) {
             if (!((block_.series >> i) & 1u)) continue;
             double value = not_a_number;
-            int const component = state_of_series<Model>(i);
+            int const component = state_of_series(model, i);
             if (component >= 0) {
                 value = lane(state[component], index);
             } else if constexpr (Model::series > Model::size) {

@@ -36,6 +36,7 @@ template <class Real> struct GuideFunctions {
     using Derivative = Faults<Real>(Real, Real const*, Parameters const&, RigidJointMemory<Real> const&, RigidConditions const&, Real*, RigidSliderReport<Real>*);
 
     RigidSliderParameters<double> (*parameters)(Inputs);
+    StateFunctions<SliderParameters<double>> state;
     Derivative* lean;
     Derivative* full;
     JointPairs<Real> (*place)(Real, Real const*, Parameters const&, RigidConditions const&);
@@ -59,10 +60,9 @@ template <class Guide> struct RigidGuide {
     template <class Real> static JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidConditions const& block) {
         auto faults = Faults<Real>::none();
         Pin<Real> const pin(s, p, is_offset(block));
-        typename Guide::template At<Real> const guide(t, pin.state, p, block.drive, faults);
-        auto at = pairs_of(guide, pin, s, p, block);
-        take_up_loads(at, t, s, p, block);
-        return at;
+        typename Guide::template At<Real> guide(t, pin.state, p, block.drive, faults);
+        auto const loads = loads_of(guide, pin, t, s, p, block);
+        return pairs_of(guide, loads, pin, s, p, block);
     }
 
     template <bool Full, class Real>
@@ -70,9 +70,9 @@ template <class Guide> struct RigidGuide {
                                    RigidConditions const& block, Real* rates, RigidSliderReport<Real>* report) {
         auto faults = Faults<Real>::none();
         Pin<Real> const pin(s, p, is_offset(block));
-        typename Guide::template At<Real> const guide(t, pin.state, p, block.drive, faults);
-        auto at = pairs_of(guide, pin, s, p, block);
-        auto const loads = take_up_loads(at, t, s, p, block);
+        typename Guide::template At<Real> guide(t, pin.state, p, block.drive, faults);
+        auto const loads = loads_of(guide, pin, t, s, p, block);
+        auto const at = pairs_of(guide, loads, pin, s, p, block);
         RigidJointContact<Real>* contact = nullptr;
         if constexpr (Full) contact = &report->contact;
         auto on = block.joint(at, p).forces(memory, contact, block.integrands_alone);
@@ -116,23 +116,27 @@ template <class Guide> struct RigidGuide {
     static constexpr bool may_be_offset = has_group(Guide::info.keys, KeyGroup::body);
     SLIDEWAY_FN static bool is_offset(RigidConditions const& block) { return may_be_offset && block.offset_slider; }
 
+    /// @param loads on the slider; the crank has its own
     template <class Real>
-    SLIDEWAY_FN static JointPairs<Real> pairs_of(typename Guide::template At<Real> const& guide, Pin<Real> const& pin, Real const* s,
-                                                 RigidSliderParameters<Real> const& p, RigidConditions const& block) {
+    SLIDEWAY_FN static JointPairs<Real> pairs_of(typename Guide::template At<Real>& guide, SliderLoads<Real> const& loads, Pin<Real> const& pin,
+                                                 Real const* s, RigidSliderParameters<Real> const& p, RigidConditions const& block) {
         Real x = guide.x, vx = guide.vx;
         pin.leave_pin(x, vx);
         JointPairs<Real> at(guide.centre(p), x, vx, s, p, block.misaligned_way);
         if (pin.is_offset()) at.move(pin.offset);
+        if (block.loads.count > 0) at.take_up(loads);
         return at;
     }
 
-    /// What loads do to a slider where it is; nothing without them.
+    /// What loads do to a slider where it is, nothing without them; its crank takes up what they do to it.
     template <class Real>
-    SLIDEWAY_FN static SliderLoads<Real> take_up_loads(JointPairs<Real>& at, Real t, Real const* s, RigidSliderParameters<Real> const& p,
-                                                       RigidConditions const& block) {
+    SLIDEWAY_FN static SliderLoads<Real> loads_of(typename Guide::template At<Real>& guide, Pin<Real> const& pin, Real t, Real const* s,
+                                                  RigidSliderParameters<Real> const& p, RigidConditions const& block) {
         if (block.loads.count == 0) return SliderLoads<Real>::none();
-        auto const loads = SliderLoads<Real>::of(block.loads, t, crank_of<Guide>(t, s, p, block.drive), {at.x, s[0], s[1]}, at.velocity.linear, at.turning, p);
-        at.take_up(loads);
+        Vec3<Real> place{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+        pin.leave_pin(place.x, velocity.x);
+        auto const loads = SliderLoads<Real>::template of<true>(block.loads, t, crank_of<Guide>(t, s, p, block.drive), place, velocity, SliderTurning<Real>::of(s), p);
+        if constexpr (requires { guide.turn(loads.turning()); }) guide.turn(loads.turning());
         return loads;
     }
 
@@ -142,7 +146,7 @@ template <class Guide> struct RigidGuide {
     }
 
     template <class Real>
-    static constexpr GuideFunctions<Real> functions{&parameters, &derivative<false, Real>, &derivative<true, Real>, &place<Real>, &along<Real>};
+    static constexpr GuideFunctions<Real> functions{&parameters, StateFunctions<SliderParameters<double>>::of<typename Guide::Base>(), &derivative<false, Real>, &derivative<true, Real>, &place<Real>, &along<Real>};
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

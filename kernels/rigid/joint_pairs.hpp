@@ -69,7 +69,7 @@ public:
         return {centre.response(impulse.linear), {light.x * a.x, light.y * a.y, light.z * a.z}};
     }
 
-    /// An impulse as the free components of the velocity feel it: x, y, z of the centre, and about the slider's axes.
+    /// An impulse as the free components of the velocity feel it: q, y, z of the centre, and about the slider's axes.
     SLIDEWAY_FN void feel(Twist<Real> const& impulse, Real (&felt)[6]) const {
         auto const linear = centre.feel(impulse.linear);
         felt[0] = linear.x, felt[1] = linear.y, felt[2] = linear.z;
@@ -88,14 +88,15 @@ public:
     /// Masses and inertias of these components.
     SLIDEWAY_FN void masses(Real (&m)[6][6]) const {
         if (is_offset_) {
-            offset_.put_masses(centre.masses, centre.free, Translation<Real>{centre.slope_y, centre.slope_z}, turning, p_, m);
+            offset_.put_masses(centre, turning, p_, m);
             return;
         }
         for (auto& row : m) {
             for (auto& entry : row) entry = Real(0.0);
         }
         auto const& of_centre = centre.masses;
-        m[0][0] = of_centre.xx, m[1][1] = of_centre.yy, m[1][2] = m[2][1] = of_centre.yz, m[2][2] = of_centre.zz;
+        m[0][0] = of_centre.qq, m[0][1] = m[1][0] = of_centre.qy, m[0][2] = m[2][0] = of_centre.qz;
+        m[1][1] = of_centre.yy, m[1][2] = m[2][1] = of_centre.yz, m[2][2] = of_centre.zz;
         m[3][3] = p_.inertia.x, m[4][4] = p_.inertia.y, m[5][5] = p_.inertia.z;
     }
 
@@ -111,6 +112,12 @@ public:
         Vec3<Real> momentum{p_.inertia.x * w.x, p_.inertia.y * w.y, p_.inertia.z * w.z};
         auto moment = cross(momentum, w) + load_torque_;
         return {centre.unloaded, {light.x * moment.x, light.y * moment.y, light.z * moment.z}};
+    }
+
+    /// Change of the rate q' of the guide that comes with one of the velocity.
+    SLIDEWAY_FN Real rate_change(Twist<Real> const& change) const {
+        if (!is_offset_) return centre.rate_change(change.linear);
+        return centre.rate_change(change.linear + cross(from_slider(turning.axes, change.angular), offset_.pin));
     }
 
     /// What the drive does in an impact [J].  @param change of the velocity

@@ -43,6 +43,9 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
 
     SLIDEWAY_HD bool has_loads() const { return block.loads.count > 0; }
     RigidSliderParameters<double> parameters(Inputs const& in) const { return guide->parameters(in); }
+    void scales(SliderParameters<double> const& p, double* scale) const { guide->state.scales(p, scale); }
+    void initial_state(Inputs const& in, double* state) const { guide->state.start(in, state); }
+    int state_of_series(int series) const { return guide->state.of_series(series); }
     /// A slider without a drive has no speed that slips are to be seen against.
     SLIDEWAY_HD void set_tolerance(double rtol) { block.slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
     SLIDEWAY_HD void tell_stages(bool inside, bool /*powers_alone*/) { block.integrands_alone = inside; }
@@ -108,7 +111,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
         auto const at = place(t, s, p);
         auto velocity = at.velocity;
         block.joint(at, p).settle(event, t, end, where, p.restitution, memory, contact, velocity);
-        put_velocity(event, velocity, s);
+        put_velocity(event, at, velocity, s);
         return changed;
     }
 
@@ -138,7 +141,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
         auto velocity = at.velocity;
         Mask<Real> touching;
         auto const failed = block.joint(at, p).push(h, (changed(2) + changed(3)) + of_apices, place(t, s, p).velocity, p.restitution, contact, velocity, touching);
-        put_velocity(touching, velocity, free);
+        put_velocity(touching, at, velocity, free);
         return failed;
     }
 
@@ -167,14 +170,15 @@ private:
         return guide_of<Real>().place(t, s, p, block);
     }
 
-    template <class Real> SLIDEWAY_FN static void put_velocity(Mask<Real> in, Twist<Real> const& velocity, Real* s) {
+    /// @param at where the slider is, with the velocity that it had
+    template <class Real> SLIDEWAY_FN static void put_velocity(Mask<Real> in, JointPairs<Real> const& at, Twist<Real> const& velocity, Real* s) {
         auto const put = [&](int i, Real value) { s[i] = select(in, value, s[i]); };
         put(2, velocity.linear.y);
         put(3, velocity.linear.z);
         put(7, velocity.angular.x);
         put(8, velocity.angular.y);
         put(9, velocity.angular.z);
-        if constexpr (Base::size > state_size) put(11, velocity.linear.x);
+        if constexpr (Base::size > state_size) put(11, s[11] + at.rate_change(velocity - at.velocity));
     }
     template <class Real> SLIDEWAY_HD static void keep_loads(Mask<Real> in, ApexLoads<Real> const& from, ApexLoads<Real>& to) {
         for (int i = 0; i < pair_count; ++i) {

@@ -32,8 +32,8 @@ constexpr Selection audit = Selection(1) << static_cast<int>(Quantity::energy_re
 // What comes to nothing has no other steps than the same scene without it: the difference is what it costs.
 constexpr PieceTable::Piece level[12] = {{0, 0, 0, 0, 0}, {0.5, 0, 0, 0, 0}, {1, 0, 0, 0, 0}, {1.5, 0, 0, 0, 0}, {2, 0, 0, 0, 0}, {2.5, 0, 0, 0, 0},
                                          {3, 0, 0, 0, 0}, {3.5, 0, 0, 0, 0}, {4, 0, 0, 0, 0}, {4.5, 0, 0, 0, 0}, {5, 0, 0, 0, 0}, {5.5, 0, 0, 0, 0}};
-constexpr int first_pieces[12] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-constexpr PieceTable table(double low, double high, bool repeats) { return {level, 12, low, high, repeats, 0, first_pieces, 12, 12 / (high - low)}; }
+constexpr int first_of_cells[13] = {0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+constexpr PieceTable table(double low, double high, bool repeats) { return {level, 12, low, high, repeats, 0, first_of_cells, 12, 12 / (high - low), true}; }
 constexpr Load force{.name = "load.force", .force = {0, 1, 2}, .point = {3, 4, 5}};
 constexpr Load indicator{.name = "load.indicator", .force = {0, 1, 2}, .point = {3, 4, 5}, .over = LoadArgument::crank_angle, .table = table(0, 6, true)};
 constexpr Load profile{.name = "way_profile.level", .kind = LoadKind::way_profile, .over = LoadArgument::x, .table = table(0, 6, false), .faces = 15};

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "host/config/piece_function.hpp"
 #include "kernels/inputs.hpp"
 
 namespace slideway::testing {
@@ -11,15 +12,11 @@ namespace slideway::testing {
 /// A table of given pieces, which it owns.
 class Pieces {
 public:
-    Pieces(std::vector<PieceTable::Piece> pieces, double high, bool repeats = false, int cells = 7) : pieces_(std::move(pieces)), first_(static_cast<std::size_t>(cells)) {
+    Pieces(std::vector<PieceTable::Piece> pieces, double high, bool repeats = false, int cells = 7) : pieces_(std::move(pieces)) {
         table_.pieces = pieces_.data(), table_.count = static_cast<int>(pieces_.size());
         table_.low = pieces_.front().from, table_.high = high, table_.repeats = repeats;
         table_.cells = cells, table_.cells_per_unit = cells / (high - table_.low);
-        for (int i = 0; i < cells; ++i) {
-            double const begin = table_.low + i / table_.cells_per_unit;
-            int& piece = first_[static_cast<std::size_t>(i)];
-            for (piece = 0; piece + 1 < table_.count && pieces_[static_cast<std::size_t>(piece + 1)].from <= begin;) ++piece;
-        }
+        first_ = first_pieces(pieces_, table_);
         table_.first = first_.data();
     }
     Pieces(Pieces const&) = delete;

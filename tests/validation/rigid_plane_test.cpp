@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernels/mechanisms/list.hpp"
+#include "tests/support/ensemble.hpp"
 #include "tests/support/rigid_growth.hpp"
 #include "tests/support/rigid_joint.hpp"
 
@@ -55,6 +56,39 @@ TEST(RigidPlane, OffsetsOfASpatialSliderGrowAsThoseOfThePlanarOne) {
         EXPECT_GT(largest, 1);
         // Ten impacts and more, each of which shrinks volumes by e².
         EXPECT_LT(volume, 20 * std::log(in.restitution));
+    }
+}
+
+/// What a motor's crank and its slider do in the plane, by either mechanism: angle, its rate, height, tilt and their rates.
+std::array<double, 6> moved(Parts const& parts, Inputs const& in, double seconds) {
+    testing::RunOptions o;
+    o.parts = parts;
+    o.parts.drive = {.by = DriveBy::torque};
+    o.settings.rtol = o.settings.atol = 1e-11;
+    o.settings.end_time = seconds;
+    auto const r = testing::run(best_isa(), o, {in});
+    EXPECT_EQ(r.records[0].status, Status::finished);
+    EXPECT_GT(r.value(0, Quantity::contact_onsets), 3);
+    auto const& s = r.states[0];
+    if (parts.mechanism != Mechanism::planar_slider_crank) return {s[10], s[11], s[0], s[6], s[2], s[9]};
+    double const y = in.crank_length * std::sin(s[0]) + in.rod_length * std::sin(s[1]);
+    double const vy = in.crank_length * std::cos(s[0]) * s[3] + in.rod_length * std::cos(s[1]) * s[4];
+    return {s[0], s[3], y, s[2], vy, s[5]};
+}
+
+TEST(RigidPlane, ACrankOnAMotorMovesAsThePlanarOne) {
+    for (double const friction : {0.0, 0.2}) {
+        auto in = mechanism(0.7, friction);
+        in.crank_length = 0.05, in.rod_length = 0.14, in.drive_torque = 0.8, in.drive_inertia = 2e-4;
+        in.crank_inertia = 1e-5, in.crank_mass = 0.05;
+        for (double const angle : {0.0, 2.0}) {
+            in.start_angle = angle;
+            auto const plane = moved(testing::rigid_planar_parts(friction > 0, false), in, 0.012);
+            auto const space = moved(testing::rigid_joint_parts(friction > 0, false, Mechanism::slider_crank_motor), in, 0.012);
+            // Friction has another lever, by the clearance.
+            for (std::size_t i = 0; i < plane.size(); ++i) EXPECT_NEAR(space[i], plane[i], friction > 0 ? 1e-6 : 1e-9) << "of " << i << " from " << angle << " with " << friction;
+            EXPECT_GT(std::abs(plane[1] - in.crank_speed), 1);
+        }
     }
 }
 

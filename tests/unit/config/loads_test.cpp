@@ -351,7 +351,7 @@ TEST_F(SceneLoadFiles, MayHaveAMillionRows) {
     for (int i = 0; i < 1'000'000; ++i) csv += std::to_string(i) + "," + std::to_string(i % 7) + "\n";
     std::string const more = "over = \"time\"\ncolumn = \"pressure\"\n";
     Scene const scene = scene_of(this->scene(csv, more));
-    EXPECT_NEAR(table_point(scene.parts.loads.loads[0].table, 777'777).value, 777'777 % 7, 1e-9);
+    EXPECT_NEAR(table_point(scene.parts.loads.loads[0].table, 777'777.0).value, 777'777 % 7, 1e-9);
     EXPECT_TRUE(contains(error_of(this->scene(csv + "1000000,3\n", more)), "at most 1000000 rows"));
 }
 

@@ -42,7 +42,7 @@ TEST(TablePoint, StaysAtItsEndsOrRepeats) {
         EXPECT_NEAR(table_point(once.table(), far).value, cubic(2), 1e-14);
         EXPECT_EQ(table_point(once.table(), far).slope, 0);
     }
-    EXPECT_EQ(table_point(once.table(), -5).value, cubic(-1));
+    EXPECT_EQ(table_point(once.table(), -5.0).value, cubic(-1));
     Pieces const ever(cut_cubic(), 2, true);
     for (int const turns : {-4, -1, 1, 1000}) {
         for (double const x : {-1.0, -0.2, 0.3, 1.9999}) EXPECT_NEAR(table_point(ever.table(), x + 3 * turns).value, cubic(x), 1e-11) << turns;
