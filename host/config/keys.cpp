@@ -308,6 +308,12 @@ std::optional<Defect> defect_of_loads(Inputs const& in, LoadList const& loads) {
             double const value = in.*load_inputs[place];
             if (auto problem = broken_rule(number.key({}, place), value)) return Defect{&key_of(load, number, place), nullptr, value, *std::move(problem)};
         }
+        if (load.kind == LoadKind::way_profile && load.scale != Load::none) {
+            double const scale = in.*load_inputs[load.scale], steepest = scale * load.steepest;
+            if (!(steepest <= most_profile_slope))
+                return Defect{&key_of(load, *find_load_number(LoadKind::way_profile, "scale"), load.scale), nullptr, scale,
+                              {fmt::format("the profile then has a slope of {:.3g}", steepest), fmt::format("contacts are reckoned with slopes up to {}", most_profile_slope)}};
+        }
         if (load.kind != LoadKind::way_ends || load.from == Load::none || load.to == Load::none || in.*load_inputs[load.from] < in.*load_inputs[load.to]) continue;
         Key const& end = key_of(load, *find_load_number(LoadKind::way_ends, "to"), load.to);
         return Defect{&end, nullptr, end.get(in), {"the way ends where it begins, or before", "use a larger x than that of from"}};

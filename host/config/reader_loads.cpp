@@ -242,9 +242,10 @@ private:
         given_.row.table.column = read_text_value(*node_.find("column"));
         read_file(file, *node_.find("column"), argument_of_x, repeats != nullptr && read_boolean(*repeats), depth_units);
         Node const* const scale = node_.find("scale");
-        double const steepest = given_.row.table.function->steepest() * (scale == nullptr ? 1 : read_number(*scale, "1"));
-        if (!(steepest <= steepest_profile))
-            refuse(file, {fmt::format("the profile has a slope of {:.3g}", steepest), fmt::format("contacts are reckoned with slopes up to {}; smooth the table, or check its units", steepest_profile)});
+        given_.load.steepest = given_.row.table.function->steepest();
+        double const steepest = given_.load.steepest * (scale == nullptr ? 1 : read_number(*scale, "1"));
+        if (!(steepest <= most_profile_slope))
+            refuse(file, {fmt::format("the profile has a slope of {:.3g}", steepest), fmt::format("contacts are reckoned with slopes up to {}; smooth the table, or check its units", most_profile_slope)});
     }
 
     void read_ends() {
@@ -351,7 +352,6 @@ private:
 
     static constexpr std::size_t argument_of_time = 1, argument_of_x = 2;
     static_assert(load_arguments[argument_of_time] == "time" && load_arguments[argument_of_x] == "x");
-    static constexpr double steepest_profile = 0.05;  // beyond it the slip is not along the way any more (model.md 18)
 
     Node const& node_;
     LoadKind const kind_;

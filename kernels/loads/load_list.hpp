@@ -59,6 +59,7 @@ struct Load {
     bool along = false;                  // a spring that has its force along X alone, and its length
     double side = 1;                     // of a stop: it blocks the way to larger x; −1 to smaller
     int faces = 0;                       // of a way's profile: bit i where face i has it, Y+, Y−, Z+, Z−
+    double steepest = 0;                 // and its slope, before its scale
     int from = none, to = none;          // of a way's ends: x of them [m]
     // of a film
     int viscosity = none;            // [Pa s]
@@ -66,6 +67,7 @@ struct Load {
     int cavitation_pressure = none;  // how far below the ambient pressure it goes before it breaks [Pa]
 };
 
+inline constexpr double most_profile_slope = 0.05;  // beyond it the slip is not along the way any more (model.md 18)
 inline constexpr int most_load_numbers = 16;  // of all loads of a scene
 
 struct LoadList {

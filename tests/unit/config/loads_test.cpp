@@ -272,6 +272,8 @@ TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
     Inputs drawn = scene.inputs;
     drawn.*load_inputs[profile.scale] = -1;
     EXPECT_TRUE(contains(defect(drawn, scene.parts).value_or(""), "way_profile.wear.scale is -1"));
+    drawn.*load_inputs[profile.scale] = 1e4;
+    EXPECT_TRUE(contains(defect(drawn, scene.parts).value_or(""), "way_profile.wear.scale is 10000 (the profile then has a slope of"));
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[film]\nviscosity = 0.1\nleast_gap = 1e-6\n", "between straight faces without ends");
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[mechanism]\nkind = \"planar_slider_crank\"\n", "way_ends");
 }
