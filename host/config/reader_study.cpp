@@ -138,7 +138,9 @@ void check_size(Reading const& reading) {
 }  // namespace
 
 std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
-    if (scene.parts.rigid && selects(selections::force_quantities, quantity)) return untold_by_rigid_contacts;
+    if (scene.parts.rigid && selects(selections::force_quantities & without_rigid_contact, quantity)) return untold_by_rigid_contacts;
+    if (scene.integrator.method == Method::moreau_jean && selects(of_single_impacts, quantity))
+        return Problem{"moreau_jean knows impulses of whole steps, and no single impacts", "remove it, or use method = \"auto\""};
     if (scene.parts.rigid && selects(without_rigid_contact, quantity))
         return Problem{"rigid contacts have neither peaks nor a potential", "remove it, or use another contact.law"};
     if (!scene.parts.rigid && selects(of_rigid_contact, quantity))

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <algorithm>
-
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/math/vec3.hpp"
+#include "kernels/observers/onset_counts.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/observers/side_record.hpp"
 #include "kernels/real.hpp"
@@ -38,8 +37,8 @@ template <class Real> class ForceRecord : public SideRecord<Real, ToldForces> {
 public:
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r) {
         Base::start(fresh, r);
+        onsets_.start(fresh);
         for (int i = 0; i < face_count; ++i) {
-            for (auto& bin : onsets_[i]) bin = select(fresh, Real(0.0), bin);
             touching_[i] = select(fresh, touches(r.contact.penetration[i]), touching_[i]);
         }
         stand(fresh, r);
@@ -48,7 +47,7 @@ public:
     template <class Report> SLIDEWAY_FN void see_faces(Mask<Real> accepted, Real step, Report const& r) {
         for (int i = 0; i < face_count; ++i) {
             auto const begins = see_face(accepted, i, touches(r.contact.penetration[i]));
-            if (any(begins)) count_onsets(begins, i, speed_of_touch(i, step, r.contact.penetration[i], r.forces.approach[i]));
+            if (any(begins)) onsets_.add(begins, i, speed_of_touch(i, step, r.contact.penetration[i], r.forces.approach[i]));
         }
         stand(accepted, r);
     }
@@ -59,7 +58,7 @@ public:
             if (none(begins)) continue;
             Real fastest(0.0);
             each_of_four([&](Real const& is_held, Real const& rate) { fastest = max(fastest, is_held * rate); }, held[i], r.forces.approach[i]);
-            count_onsets(begins, i, fastest);
+            onsets_.add(begins, i, fastest);
         }
     }
 
@@ -71,13 +70,8 @@ public:
             this->put(selected, row, peak_pressure, i, this->peak(ToldForces::pressures + i, index));
             this->put(selected, row, peak_pv, i, this->peak(ToldForces::products + i, index));
             this->put(selected, row, mean_pv, i, time > 0 ? this->integral(i, index) / time : 0.0);
-            double onsets = 0;
-            for (int k = 0; k < impact_speed_count; ++k) {
-                onsets += lane(onsets_[i][k], index);
-                this->put(selected, row, impact_speeds, i * impact_speed_count + k, lane(onsets_[i][k], index));
-            }
-            this->put(selected, row, face_onsets, i, onsets);
         }
+        onsets_.finish(index, selected, row);
         this->put(selected, row, peak_friction_force, 0, this->peak(ToldForces::vectors, index));
         this->put(selected, row, peak_rod_force, 0, this->peak(ToldForces::vectors + 1, index));
         this->put(selected, row, peak_crank_pin_force, 0, this->peak(ToldForces::vectors + 2, index));
@@ -99,16 +93,6 @@ private:
             approach_[i] = select(in, r.forces.approach[i], approach_[i]);
         }
     }
-    SLIDEWAY_FN void count_onsets(Mask<Real> in, int face, Real speed) {
-        constexpr double from[] = {0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1};  // device code cannot index a constant of the host
-        static_assert(std::ranges::equal(from, impact_speed_bins));
-        Real above = slideway::count<Real>(in);
-        for (int k = 0; k < impact_speed_count; ++k) {
-            Real const beyond = k + 1 < impact_speed_count ? slideway::count<Real>(in & (speed >= Real(from[k + 1]))) : Real(0.0);
-            onsets_[face][k] = onsets_[face][k] + (above - beyond);
-            above = beyond;
-        }
-    }
     /// δ' where the apex that is deepest at the end of the step came to its face, by the cubic through both ends' depths and rates.
     SLIDEWAY_FN Real speed_of_touch(int face, Real step, Quad<Real> const& depth, Quad<Real> const& approach) const {
         Real d0(-1.0), v0(0.0), d1(-1.0), v1(0.0);
@@ -128,7 +112,7 @@ private:
         return fma(high, fma(high, three * cube, square + square), s0) / step;
     }
 
-    Real onsets_[face_count][impact_speed_count];
+    OnsetCounts<Real> onsets_;
     Real touching_[face_count];                              // 1 or 0, where the last step ended
     Quad<Real> depth_[face_count], approach_[face_count];  // there
 };

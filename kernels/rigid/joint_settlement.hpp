@@ -76,7 +76,7 @@ public:
         Mask<Real> rests[pair_count];
         for (auto& rest : rests) rest = mask_of<Real>(false);
         auto met = mask_of<Real>(false);
-        Real pattern = zero;
+        Real pattern = zero, speed[face_count] = {zero, zero, zero, zero};
         for (int k = 0; k < pairs.count(); ++k) {
             auto const& row = pairs.row(k);
             int const i = row.number;
@@ -84,6 +84,9 @@ public:
             auto const meets = near[i] & (!held[i]) & (dot(row.pair.normal, pairs.before) < zero);
             met = met | meets;
             pattern = pattern + select(meets, Real(static_cast<double>(1u << i)), zero);
+            int const face = i / 4;
+            Mask<Real> const lasted = held[4 * face] | held[4 * face + 1] | held[4 * face + 2] | held[4 * face + 3];
+            speed[face] = select(meets & !lasted, max(speed[face], negated(dot(row.pair.normal, pairs.before))), speed[face]);
         }
         Real const flight = end_bounces(pairs.after, contact, near, select(endless, Real(quick_time), Real(chatter_time)), rests);
         complete_faces(event, contact, rests);
@@ -92,6 +95,7 @@ public:
         pairs.rest(event, rests, still, coefficient);
         auto books = impact.books();
         books.count = count<Real>(met), books.met = pattern, books.flight = flight;
+        for (int face = 0; face < face_count; ++face) books.speed[face] = speed[face];
         memory.books.take(event, books);
         keep(event, rests, still, memory);
         velocity = select(event, pairs.after, velocity);

@@ -12,12 +12,15 @@ inline constexpr LawInfo rigid_contact{.name = "rigid",
                                        .switches = false,
                                        .groups = groups_of(KeyGroup::restitution)};
 
+/// Quantities of single impacts, which time stepping does not know.
+inline constexpr Selection of_single_impacts = selections::of({Quantity::face_onsets, Quantity::impact_speeds});
+
 /// Quantities that rigid contacts have not: the largest of forces that are impulses, and what follows from it; and the loss of an oil film, which they know not.
 inline constexpr Selection without_rigid_contact =
     selections::of({Quantity::peak_normal_force, Quantity::peak_apex_force, Quantity::mean_apex_force, Quantity::peak_crank_torque,
                     Quantity::rms_crank_torque, Quantity::switching_energy, Quantity::peak_acceleration, Quantity::rms_acceleration,
                     Quantity::peak_channel_acceleration, Quantity::acceleration_area, Quantity::film_loss}) |
-    selections::force_quantities;
+    (selections::force_quantities & ~of_single_impacts);
 
 /// Quantities that they alone have.
 inline constexpr Selection of_rigid_contact = selections::of({Quantity::capped_impacts});

@@ -24,16 +24,18 @@ template <class Real> struct ImpactBooks {
     Real met;       // which, a bit each
     Real flight;    // how long the bounces that it ends would have gone on [s]
     Real capped;    // 1 where its energy was bounded (M13.7), else 0
+    Real speed[face_count];  // of the fastest apex that met a face on which none had lasted [m/s]; 0 where none did
 
     SLIDEWAY_FN static ImpactBooks none() {
         Real const zero(0.0);
-        return {zero, zero, zero, zero, zero, zero, zero, zero};
+        return {zero, zero, zero, zero, zero, zero, zero, zero, {zero, zero, zero, zero}};
     }
     SLIDEWAY_FN void take(Mask<Real> in, ImpactBooks const& from) {
         using Books = ImpactBooks;
         for (auto const of : {&Books::work, &Books::friction, &Books::damping, &Books::impulse, &Books::count, &Books::met, &Books::flight, &Books::capped}) {
             this->*of = select(in, from.*of, this->*of);
         }
+        for (int face = 0; face < face_count; ++face) speed[face] = select(in, from.speed[face], speed[face]);
     }
 };
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/lanes/model.hpp"
 #include "kernels/observers/energy_audit.hpp"
+#include "kernels/observers/onset_counts.hpp"
 #include "kernels/observers/slider_observer.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/rigid_watch.hpp"
@@ -21,8 +24,8 @@ template <class Base> struct RigidLanes : Base, ModelDefaults {
 };
 
 /// The quantities of a mechanism with rigid contacts: what impacts do is no integral over time, and booked by itself.
-/// @tparam Report_ RigidPlanarReport or RigidSliderReport
-template <class Real, template <class> class Report_> class RigidObserver : public SliderObserver<Real, Report_> {
+/// @tparam Report_ RigidPlanarReport or RigidSliderReport  @tparam of_faces it counts impacts of the faces, too
+template <class Real, template <class> class Report_, bool of_faces = false> class RigidObserver : public SliderObserver<Real, Report_> {
 public:
     using Report = Report_<Real>;
 
@@ -30,10 +33,12 @@ public:
         Base::start(fresh, r, state, switches);
         owed_ = select(fresh, Real(0.0), owed_);
         capped_ = select(fresh, Real(0.0), capped_);
+        if constexpr (of_faces) onsets_of_.start(fresh);
     }
     SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
         Base::finish(index, time, selected, row);
         if (selects(selected, Quantity::capped_impacts)) row[quantity_column(Quantity::capped_impacts)] = lane(capped_, index);
+        if constexpr (of_faces) onsets_of_.finish(index, selected, row);
     }
 
     SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, Report const& r, Real const* state, bool switches) {
@@ -56,6 +61,9 @@ public:
         book(in, books);
         // As of compliant contacts: from free flight, however many corners meet their walls.
         this->onsets_ = this->onsets_ + slideway::count<Real>(in & (books.count > Real(0.0)) & (this->mode_ == Real(0.0)));
+        if constexpr (of_faces) {
+            for (int face = 0; face < face_count; ++face) onsets_of_.add(in & (books.speed[face] > Real(0.0)), face, books.speed[face]);
+        }
         this->mode_ = select(in, this->mode_class(r), this->mode_);
         owed_ = select(in & (books.count > Real(0.0)), books.flight, owed_);
         this->resume(in, r, switches);
@@ -83,6 +91,8 @@ private:
 
     Real owed_;    // flight that is still to come [s]
     Real capped_;  // impacts whose energy was bounded
+    struct Nothing {};
+    [[no_unique_address]] std::conditional_t<of_faces, OnsetCounts<Real>, Nothing> onsets_of_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

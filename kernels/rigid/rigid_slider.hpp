@@ -31,7 +31,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     template <class Real> using Report = RigidSliderReport<Real>;
     template <class Real> using Memory = RigidJointMemory<Real>;
     template <class Real> using Watch = JointWatch<Real>;
-    template <class Real> using Observer = RigidObserver<Real, RigidSliderReport>;
+    template <class Real> using Observer = RigidObserver<Real, RigidSliderReport, true>;
     static constexpr bool sees_contacts = true, has_patterns = true;
 
     RigidConditions block;

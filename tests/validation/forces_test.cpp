@@ -177,5 +177,25 @@ TEST(Forces, OfFacesAreMetAtTheSpeedsOfFalls) {
     }
 }
 
+/// v_k = e^k √(2 g s), of a flat slider that falls a height s; bounces that are ended at once are none of them.
+TEST(Forces, OfRigidFacesAreMetAtTheSpeedsOfBounces) {
+    Loaded l{{}, {}};
+    l.in.restitution = 0.5, l.in.clearance_y = 1e-3;
+    double const fall = 1.5e-3;
+    l.in.y = fall - l.in.clearance_y;
+    auto o = options(l, Mechanism::free_slider, 0.2, 1e-8);
+    o.parts.rigid = true, o.parts.damping = Damping::restitution;
+    auto const r = run(l, o);
+    double expected[impact_speed_count] = {};
+    for (double v = std::sqrt(2 * l.in.gravity * fall); v > 1e-3; v *= l.in.restitution) {
+        int bin = 0;
+        while (bin + 1 < impact_speed_count && v >= impact_speed_bins[bin + 1]) ++bin;
+        ++expected[bin];
+    }
+    for (int bin = 1; bin < impact_speed_count; ++bin) EXPECT_EQ(r.value(0, Quantity::impact_speeds, bin), expected[bin]) << bin;
+    EXPECT_EQ(r.value(0, Quantity::face_onsets, 0), r.value(0, Quantity::contact_onsets));
+    for (int face = 1; face < 4; ++face) EXPECT_EQ(r.value(0, Quantity::face_onsets, face), 0);
+}
+
 }  // namespace
 }  // namespace slideway::forces_test
