@@ -194,7 +194,7 @@ template <class Arch> SLIDEWAY_FN void set_lane(Batch<Arch>& x, int index, doubl
 /// Of what a function says for each lane.
 template <class Real, class Number> requires (lanes<Real> > 1)
 SLIDEWAY_FN Real of_lanes(Number const& number) {
-    return [&]<int... i>(std::integer_sequence<int, i...>) { return Real{number(i)...}; }(std::make_integer_sequence<int, lanes<Real>>());
+    return [&]<int... i>(std::integer_sequence<int, i...>) { return Real({number(i)...}); }(std::make_integer_sequence<int, lanes<Real>>());
 }
 
 /// Bit i is the truth value of lane i.

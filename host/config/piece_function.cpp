@@ -6,8 +6,6 @@
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
-#include "kernels/loads/table_value.hpp"
-
 namespace slideway {
 namespace {
 
@@ -108,7 +106,7 @@ std::vector<int> first_pieces(std::span<PieceTable::Piece const> pieces, PieceTa
     std::vector<int> first;
     int piece = 0;
     for (int cell = 0; cell < table.cells; ++cell) {
-        while (piece + 1 < table.count && static_cast<int>(cell_of(table, pieces[static_cast<std::size_t>(piece + 1)].from)) < cell) ++piece;
+        while (piece + 1 < table.count && static_cast<int>(table.cell_of(pieces[static_cast<std::size_t>(piece + 1)].from)) < cell) ++piece;
         first.push_back(piece);
     }
     first.push_back(table.count - 1);
@@ -117,13 +115,13 @@ std::vector<int> first_pieces(std::span<PieceTable::Piece const> pieces, PieceTa
 
 void PieceFunction::find_cells() {
     first_.assign(pieces_.size() + 1, 0);
-    PieceTable const whole = table();
-    if (!not_finite()) first_ = first_pieces(pieces_, whole);
-    auto const is_off = [&](PieceTable::Piece const& piece) {
-        auto const place = static_cast<double>(&piece - pieces_.data()) - (piece.from - whole.low) * whole.cells_per_unit;
-        return !(std::abs(place) <= 1e-12);
-    };
-    is_even_ = std::ranges::none_of(pieces_, is_off);
+    // Beginnings that are rounded are even: values are continuous.  The last piece may be longer.
+    double const low = pieces_.front().from, span = pieces_.back().from - low, last = static_cast<double>(pieces_.size() - 1);
+    width_ = last > 0 ? span / last : high_ - low;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        if (std::abs(pieces_[i].from - low - static_cast<double>(i) * width_) > 1e-9 * width_) width_ = 0;
+    }
+    if (!not_finite()) first_ = first_pieces(pieces_, table());
 }
 
 std::optional<std::size_t> PieceFunction::not_finite() const {
@@ -213,8 +211,8 @@ PieceTable PieceFunction::table() const {
     table.pieces = pieces_.data(), table.count = static_cast<int>(pieces_.size());
     table.low = pieces_.front().from, table.high = high_, table.repeats = repeats_, table.advance = advance_;
     table.first = first_.data(), table.cells = table.count;
-    table.cells_per_unit = table.cells / (table.high - table.low);
-    table.is_even = is_even_;
+    table.is_even = width_ > 0;
+    table.cells_per_unit = table.is_even ? 1 / width_ : table.cells / (table.high - table.low);
     return table;
 }
 

@@ -59,7 +59,8 @@ private:
     std::vector<PieceTable::Piece> pieces_;
     std::vector<int> first_;
     double high_, advance_ = 0;
-    bool repeats_, is_even_ = false;
+    bool repeats_;
+    double width_ = 0;  // of pieces that are evenly spread
 
     void find_cells();
     /// The piece of a place, how far behind its beginning that is, and how often the function has repeated there.

@@ -21,6 +21,12 @@ struct PieceTable {
     int cells = 0;
     double cells_per_unit = 0;  // cells/(high − low)
     bool is_even = false;       // pieces are as long as cells, and where these are
+
+    /// The cell of a place within it: a whole number, once cut off.  Kernels count cells in the same way.
+    constexpr double cell_of(double place) const {
+        double const cell = (place - low) * cells_per_unit;
+        return cell < cells - 1.0 ? cell : cells - 1.0;
+    }
 };
 
 enum class LoadKind {

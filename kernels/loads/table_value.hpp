@@ -9,11 +9,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// A table's value and its first three derivatives.
 template <class Real> struct TablePoint { Real value, slope, bend, jerk; };
 
-/// The cell of a place within a table: a whole number, once cut off.
-template <class Real> SLIDEWAY_FN Real cell_of(PieceTable const& table, Real const& at) {
-    return min((at - Real(table.low)) * Real(table.cells_per_unit), Real(table.cells - 1.0));
-}
-
 /// The piece of a table that a place within it is in, which is in a cell.
 SLIDEWAY_FN PieceTable::Piece const& piece_at(PieceTable const& table, double at, double cell) {
     int const found = static_cast<int>(cell);
@@ -39,7 +34,7 @@ template <class Real> SLIDEWAY_FN TablePoint<Real> table_point(PieceTable const&
     }
     // Of places so far away that nothing is known of their phase, too.
     at = min(max(at, low), high);
-    Real const cell = cell_of(table, at);
+    Real const cell = min((at - low) * Real(table.cells_per_unit), Real(table.cells - 1.0));
     PieceTable::Piece const* pieces[lanes<Real>];
     for (int i = 0; i < lanes<Real>; ++i) pieces[i] = table.is_even ? &table.pieces[static_cast<int>(lane(cell, i))] : &piece_at(table, lane(at, i), lane(cell, i));
     auto const number = [&](double PieceTable::Piece::* of) { return of_lanes<Real>([&](int i) { return pieces[i]->*of; }); };

@@ -5,6 +5,12 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Whether nothing moves a guide's slider along the way.
+template <class Guide> inline constexpr bool is_free_along = [] {
+    if constexpr (requires { Guide::is_free; }) return Guide::is_free;
+    else return false;
+}();
+
 /// How the centre of a slider answers to what acts on it in one state, whatever guides it along the way: numbers that a mechanism fills in.  Free are y',
 /// z' and, where nothing drives it, one rate q' more: x' itself, or that of a crank.  x' follows from them, Δx' = κ Δq' + κy Δy' + κz Δz'.
 template <class Real> struct GuidedCentre {

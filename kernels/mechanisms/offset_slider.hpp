@@ -118,7 +118,7 @@ template <class Real> struct OffsetSlider {
         report.energy = fma(p.slider_mass, kinetic - height, report.energy);
     }
 
-    /// Masses of (q', y', z', ωx, ωy, ωz), of the hole's centre, of which a guide that prescribes q' leaves that row alone.
+    /// Masses of q' of the guide, y' and z' of the hole's centre, and ω; a guide that prescribes q' leaves that row alone.
     /// @param guided how P answers
     SLIDEWAY_FN void put_masses(GuidedCentre<Real> const& guided, SliderTurning<Real> const& turning, SliderParameters<Real> const& p,
                                 Real (&masses)[6][6]) const {

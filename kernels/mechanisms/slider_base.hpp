@@ -56,7 +56,9 @@ template <class Parameters> struct StateFunctions {
     void (*start)(Inputs const&, double*) = nullptr;
     int (*of_series)(int) = nullptr;
 
-    template <class Base> static constexpr StateFunctions of() { return {&Base::template scales<double>, &Base::initial_state, &Base::state_of_series}; }
+    template <class Base> static constexpr StateFunctions of() { 
+        return {[](Parameters const& p, double* scale) { Base::scales(p, scale); }, &Base::initial_state, &Base::state_of_series};
+    }
 };
 
 /// The way of a mechanism without crank and rod passes through (0, offset_y, offset_z).

@@ -60,7 +60,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         guide.masses(p, out);
         out.inertia = p.inertia;
         if constexpr (may_be_offset) {
-            if (at.is_offset()) out.template couple<free_along>(at.offset, guide.slope(), turning, p);
+            if (at.is_offset()) out.template couple<is_free_along<Guide>>(at.offset, guide.slope(), turning, p);
         }
         out.roll = turning.angles.roll;
         out.yaw = turning.angles.yaw;
@@ -126,10 +126,6 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
 
 private:
     static constexpr bool may_be_offset = has_group(Guide::info.keys, KeyGroup::body);
-    static constexpr bool free_along = [] {
-        if constexpr (requires { Guide::is_free; }) return Guide::is_free;
-        else return false;
-    }();
 
     /// What the joint sees: without a profile a way that is straight and has no ends.  No lambda, which would have all of it lie in memory.
     template <bool profiled, class Real, class Laws>

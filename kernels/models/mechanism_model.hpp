@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/conditions.hpp"
 #include "kernels/lanes/model.hpp"
 #include "kernels/mechanisms/faults.hpp"
@@ -30,13 +32,14 @@ template <class Laws> struct ConditionsOfBlock : ModelDefaults {
     }
 };
 
-/// Whether a mechanism's base finds the components of its state among the series, where the mechanism's info says that they are.
-template <class Base> constexpr bool finds_state(MechanismInfo const& info) {
-    if constexpr (requires { Base::state_of_series(0); }) {
+/// Whether a mechanism finds the components of its state among the series, where its info says that they are, and has the state of the lanes' base.
+template <class Mechanism, class Base> constexpr bool finds_state() {
+    if constexpr (std::is_base_of_v<Base, Mechanism> && requires { Mechanism::state_of_series(0); }) {
+        auto const& info = Mechanism::info;
         for (int i = 0; i < info.states; ++i) {
-            if (Base::state_of_series(static_cast<int>(info.state[i])) != i) return false;
+            if (Mechanism::state_of_series(static_cast<int>(info.state[i])) != i) return false;
         }
-        return info.states == Base::size;
+        return info.states == Mechanism::size && Mechanism::size == Base::size;
     }
     return false;
 }
@@ -59,7 +62,7 @@ SLIDEWAY_FN Faults<Real> derivative_of(Real t, Real const* state, Parameters con
 /// @tparam Base of the mechanism's row in mechanisms/list.hpp  @tparam Laws OneLaw or AnyLaw
 template <class Mechanism, class Base, class Laws> struct MechanismModel : Mechanism, SignalLanes<Base, SignalsOf<Mechanism>>, ConditionsOfBlock<Laws> {
     using Lanes = SignalLanes<Base, SignalsOf<Mechanism>>;
-    static_assert(finds_state<Base>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
+    static_assert(finds_state<Mechanism, Base>(), SLIDEWAY_STATE_NOT_FOUND);
     template <class Real> using Parameters = typename Mechanism::template Parameters<Real>;
     template <class Real> using Memory = typename LanesOf<Base>::template Memory<Real>;
     template <class Real> using Report = typename Lanes::template Report<Real>;

@@ -32,7 +32,7 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
     Translation<Real> (*way_bend)(Real, Real, Real const*, Parameters const&, DrivePlan const&) = nullptr;
 
     template <class Mechanism> static constexpr MechanismFunctions of() {
-        static_assert(finds_state<Mechanism>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
+        static_assert(finds_state<Mechanism, Base>(), SLIDEWAY_STATE_NOT_FOUND);
         using Laws = LawFunctions<Real>;
         MechanismFunctions functions;
         functions.parameters = &Mechanism::parameters;

@@ -37,6 +37,7 @@ template <class Real> struct GuideFunctions {
 
     RigidSliderParameters<double> (*parameters)(Inputs);
     StateFunctions<SliderParameters<double>> state;
+    bool is_free;  // nothing drives the slider, and it has no speed that slips are to be seen against
     Derivative* lean;
     Derivative* full;
     JointPairs<Real> (*place)(Real, Real const*, Parameters const&, RigidConditions const&);
@@ -61,7 +62,7 @@ template <class Guide> struct RigidGuide {
         auto faults = Faults<Real>::none();
         Pin<Real> const pin(s, p, is_offset(block));
         typename Guide::template At<Real> guide(t, pin.state, p, block.drive, faults);
-        auto const loads = loads_of(guide, pin, t, s, p, block);
+        auto const loads = loads_of<false>(guide, pin, t, s, p, block);
         return pairs_of(guide, loads, pin, s, p, block);
     }
 
@@ -71,8 +72,8 @@ template <class Guide> struct RigidGuide {
         auto faults = Faults<Real>::none();
         Pin<Real> const pin(s, p, is_offset(block));
         typename Guide::template At<Real> guide(t, pin.state, p, block.drive, faults);
-        auto const loads = loads_of(guide, pin, t, s, p, block);
-        auto const at = pairs_of(guide, loads, pin, s, p, block);
+        auto const loads = loads_of<Full>(guide, pin, t, s, p, block);
+        auto at = pairs_of(guide, loads, pin, s, p, block);
         RigidJointContact<Real>* contact = nullptr;
         if constexpr (Full) contact = &report->contact;
         auto on = block.joint(at, p).forces(memory, contact, block.integrands_alone);
@@ -129,13 +130,13 @@ template <class Guide> struct RigidGuide {
     }
 
     /// What loads do to a slider where it is, nothing without them; its crank takes up what they do to it.
-    template <class Real>
+    template <bool with_powers, class Real>
     SLIDEWAY_FN static SliderLoads<Real> loads_of(typename Guide::template At<Real>& guide, Pin<Real> const& pin, Real t, Real const* s,
                                                   RigidSliderParameters<Real> const& p, RigidConditions const& block) {
         if (block.loads.count == 0) return SliderLoads<Real>::none();
         Vec3<Real> place{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
         pin.leave_pin(place.x, velocity.x);
-        auto const loads = SliderLoads<Real>::template of<true>(block.loads, t, crank_of<Guide>(t, s, p, block.drive), place, velocity, SliderTurning<Real>::of(s), p);
+        auto const loads = SliderLoads<Real>::template of<with_powers>(block.loads, t, crank_of<Guide>(t, s, p, block.drive), place, velocity, SliderTurning<Real>::of(s), p);
         if constexpr (requires { guide.turn(loads.turning()); }) guide.turn(loads.turning());
         return loads;
     }
@@ -146,7 +147,7 @@ template <class Guide> struct RigidGuide {
     }
 
     template <class Real>
-    static constexpr GuideFunctions<Real> functions{&parameters, StateFunctions<SliderParameters<double>>::of<typename Guide::Base>(), &derivative<false, Real>, &derivative<true, Real>, &place<Real>, &along<Real>};
+    static constexpr GuideFunctions<Real> functions{&parameters, StateFunctions<SliderParameters<double>>::of<typename Guide::Base>(), is_free_along<Guide>, &derivative<false, Real>, &derivative<true, Real>, &place<Real>, &along<Real>};
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -46,8 +46,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     void scales(SliderParameters<double> const& p, double* scale) const { guide->state.scales(p, scale); }
     void initial_state(Inputs const& in, double* state) const { guide->state.start(in, state); }
     int state_of_series(int series) const { return guide->state.of_series(series); }
-    /// A slider without a drive has no speed that slips are to be seen against.
-    SLIDEWAY_HD void set_tolerance(double rtol) { block.slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
+    SLIDEWAY_HD void set_tolerance(double rtol) { block.slip_units = guide->is_free ? 1.0 : slip_unit(rtol); }
     SLIDEWAY_HD void tell_stages(bool inside, bool /*powers_alone*/) { block.integrands_alone = inside; }
 
     /// Pairs that last, a bit each, and those of them that stick.

@@ -6,6 +6,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 struct Model {
     static constexpr int size = 2, series = 3;
 };
-static_assert(state_of_series<Model>(0) == 0);
+static_assert(state_of_series(Model(), 0) == 0);
 
 }  // namespace slideway::inline SLIDEWAY_ISA
