@@ -1,4 +1,4 @@
-# What `cmake --install` brings: the program with man page and completions, the library, the kernels' headers, CMake's package, scenes.
+# What `cmake --install` brings: the program with man page and completions, the library, the kernels' headers, CMake's package, scenes and jobs.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/slideway)
@@ -10,6 +10,7 @@ if(NOT CMAKE_CROSSCOMPILING)
     install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/pages.cmake)
 endif()
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/slideway)
+install(DIRECTORY examples/jobs DESTINATION ${CMAKE_INSTALL_DATADIR}/slideway/examples)  # tables of scenes among them
 # Under the names that Debian has for them.
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 execute_process(COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md OUTPUT_FILE ${PROJECT_BINARY_DIR}/changelog.gz)

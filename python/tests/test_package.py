@@ -83,7 +83,8 @@ def ends_of_documents(request: pytest.FixtureRequest, program: str, tmp_path_fac
         assert blocks
         # The blocks of a page follow each other, in the root of the repository.
         folder = tmp_path_factory.mktemp("document")
-        (folder / "scenes").symlink_to(root / "scenes")
+        for part in ("scenes", "examples"):  # of which scenes read tables
+            (folder / part).symlink_to(root / part)
         scripts[document] = str(folder), "\n".join(blocks)
     said = folder / "ends.json"
     done = subprocess.run([sys.executable, "-c", EACH, str(said)], input=json.dumps(scripts), capture_output=True, text=True, check=False)

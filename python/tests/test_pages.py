@@ -35,6 +35,8 @@ shorter = {{
     "shaken": ["study.members=16", "study.duration=0.2 s"],
     "leaning": ["study.members=16"],
     "overhang": ["study.members=16"],
+    "oil": ["study.members=16"],
+    "worn": ["study.members=16"],
 }}
 line = sys.argv[1:]
 if line[0] == "run":
