@@ -40,12 +40,16 @@ struct MemberRecord {
     std::uint64_t crossings = 0;             // also those for which there was no room
     std::uint64_t lost_offsets = 0;          // recorded times that a shadow's offset had shrunk into rounding
     std::uint64_t grown_offsets = 0;         // recorded times that one had grown to the size of the joint
+    double growth_from = 0;                  // [s] when the growth of offsets began to be recorded
 };
 
 /// When a member ends and when its steps end on the way.
 struct MemberClock {
     double end = 0;                     // [s]
     double first_stop = 0, period = 0;  // stop i is at first_stop + i · period, > 0 and <= end [s]
+    // By turns (BlockBase::by_turns) stops are angles that the crank has turned [rad], and `end` is the latest time to come to the last.
+    double turns = 1e300;   // where it ends, of who has no stops [rad]
+    double first_back = 0;  // the first stop, where it turns back
 };
 
 /// Stops of every member of a block: known times at which a step ends, to the last bit.
@@ -118,7 +122,7 @@ struct BlockBase {
     std::uint64_t* taken = nullptr;        // how many are, where several share the block; nullptr: one has it alone
     std::size_t seats = 0;                 // who shares it takes so many at the start, at most; 0: as many as it can
     IntegratorSettings settings;
-    double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]
+    double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]; by turns what the crank has turned [rad]
     std::size_t samples = 0;
     Selection quantities = 0;
     Selection series = 0;
@@ -126,6 +130,8 @@ struct BlockBase {
     StopPlan stops;
     ShadowPlan shadows;      // of models with shadows
     CrossingPlan crossings;  // from each member's first_stop on; of models without shadows, and without stops
+    /// Members end, stop and are sampled by what their crank has turned since the start, |θ − θ0| [rad]: of models whose state has its angle.
+    bool by_turns = false;
     /// Asked now and then; true, or a flag that is not 0, ends the block at once.  Members that have not ended keep what their results
     /// held before, but that series, sections and growths of those under way are NaN.
     /// @param covered how far the block is: members that ended, and of those under way the share of their time; 0 where cards run it
@@ -137,6 +143,7 @@ struct BlockBase {
     double* final_states = nullptr;     // [members][states of the model]
     double* quantity_values = nullptr;  // [members][columns of the model's observer], only selected columns written
     double* series_values = nullptr;    // [selected series, in table order][members][samples]; NaN after a failure
+    double* sample_clock = nullptr;     // [members][samples], by turns: when that was [s]; NaN likewise
     /// [members][stops.sections(), or crossings.room][1 + states of the model]: time and state; NaN where there is none.
     double* section_values = nullptr;
     double* growth_values = nullptr;        // [members][stops.growths()][shadows.count], ln of the growth; NaN likewise

@@ -13,10 +13,11 @@ enum class Status : signed char {
     contact_domain = 5,  // a line contact beyond its domain δ̄ ≤ l²/R_e; rigid contacts that have jammed
     invalid_inputs = 6,  // the inputs drawn for the member cannot be used; it was not integrated
     unstable = 7,        // reached the end time, but its energy audit says that the method left its stable range
+    out_of_time = 8,     // its crank has not turned as far as it was to within study.duration
 };
 
-inline constexpr int status_count = 8;  // without not_run
-inline constexpr char const* status_names[status_count] = {"finished", "step_too_small", "max_steps",      "nonfinite",
-                                                           "geometry", "contact_domain", "invalid_inputs", "unstable"};
+inline constexpr int status_count = 9;  // without not_run
+inline constexpr char const* status_names[status_count] = {"finished",       "step_too_small", "max_steps", "nonfinite",  "geometry",
+                                                           "contact_domain", "invalid_inputs", "unstable",  "out_of_time"};
 
 }  // namespace slideway

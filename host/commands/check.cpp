@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -107,8 +108,9 @@ void print_orbits(Scene const& scene, OrbitSchedule const& schedule) {
     }
     ShadowPlan const shadows = shadow_plan(scene);
     if (shadows.count == 0) return;
-    print_field("exponents", fmt::format("{} by as many shadows, rescaled every {:.6g} s", shadows.count,
-                                         schedule.timing(scene.inputs).period));
+    double const period = schedule.timing(scene.inputs).period;
+    print_field("exponents", fmt::format("{} by as many shadows, rescaled every {:.6g} {}", shadows.count,
+                                         schedule.by_turns ? period * 180 / std::numbers::pi : period, schedule.by_turns ? "degrees" : "s"));
 }
 
 std::string design_text(Scene const& scene) {
@@ -210,7 +212,9 @@ int execute(CheckArguments const& arguments) {
                                        counted(prediction.largest_block, "member")));
     if (!choice.reason.empty()) print_field("", choice.reason);
     OrbitSchedule const schedule = orbit_schedule(scene);
-    print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene), schedule.end));
+    std::string const length = schedule.by_turns ? fmt::format("{:.6g} revolutions, for at most {:.6g} s", schedule.turns, schedule.end)
+                                                 : fmt::format("{:.6g} s", schedule.end);
+    print_field("members", fmt::format("{}, each over {}", member_count(scene), length));
     print_design(scene);
     print_orbits(scene, schedule);
     std::string const design = prediction.design_bytes > 0 ? fmt::format(", {} for the order of the members", bytes_text(prediction.design_bytes)) : "";

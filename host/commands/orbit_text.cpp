@@ -102,6 +102,7 @@ void print_exponents(ResultReader const& results) {
         print_signs(largest);
     }
     print_text(4, "  its second half alone: {}", text(largest.late));
+    if (auto const turn = growth_per_turn(results)) print_text(4, "  growth of the first in a turn of the crank: {} (ln)", text(*turn));
     print_history(exponent_history(results));
     if (results.has("kaplan_yorke_dimension")) {
         Summary const dimension = summarise(results.values("kaplan_yorke_dimension"));

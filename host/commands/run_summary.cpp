@@ -88,6 +88,14 @@ void print_instability(Scene const& scene, Statuses const& ended) {
     print_text(0, "\n{} failed in {} ({}): {}.", name, counted(unstable + broken, "member"), fmt::join(what, ", "), advice_on(method));
 }
 
+/// Members whose crank did not turn so far in the time that it had.
+void print_late(Scene const& scene, Statuses const& ended) {
+    std::uint64_t const late = count_of(ended, Status::out_of_time);
+    if (late == 0) return;
+    print_text(0, "\n{} had not turned as far as study.revolutions after study.time_limit = {:.6g} s: give it longer, or look at one with --member K.",
+               late == 1 ? "The crank of 1 member" : fmt::format("The cranks of {}", counted(late, "member")), scene.integrator.end_time);
+}
+
 /// Members that spent their steps before their end.
 void print_spent(Scene const& scene, Statuses const& ended) {
     std::uint64_t const spent = count_of(ended, Status::max_steps);
@@ -176,7 +184,7 @@ void warn_of_results(ResultReader const& results) {
 void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks) {
     double const rate = totals.seconds > 0 ? static_cast<double>(totals.done()) / totals.seconds : 0.0;
     OrbitSchedule const schedule = orbit_schedule(scene);
-    double const turns = schedule.timing ? schedule.end / drive_period(scene.parts, scene.inputs) : 0;
+    double const turns = schedule.timing ? schedule.turns : 0;
     print_field("throughput",
                 fmt::format("{:.4g} members/s, {}{} wall time ({}{}, {})", rate,
                             turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
@@ -205,7 +213,7 @@ void print_results(RunArguments const& arguments, Scene const& scene, ResultRead
     else
         print_quantities(quantities);
     bool const has_values = std::ranges::any_of(quantities, [](QuantitySummary const& one) { return one.values.count > 0; });
-    if (has_values && std::isfinite(drive_period(scene.parts, scene.inputs))) {
+    if (has_values && std::isfinite(turn_length(scene))) {
         print_out("  (over the whole run, its transient included)\n");
     }
     print_exponents(results);
@@ -213,6 +221,7 @@ void print_results(RunArguments const& arguments, Scene const& scene, ResultRead
     print_verification(results);
     print_energy_made(scene, ended, quantities);
     print_instability(scene, ended);
+    print_late(scene, ended);
     print_spent(scene, ended);
     print_failures(arguments, scene, ended, results);
     if (!scene.stores_members()) {

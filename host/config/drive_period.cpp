@@ -64,6 +64,8 @@ std::optional<Range> magnitudes(Scene const& scene, Key const& key) {
 
 double drive_period(Parts const& parts, Inputs const& inputs) { return drive_period(info(parts.mechanism), parts.drive, inputs); }
 
+double turn_length(Scene const& scene) { return scene.goes_by_turns() ? 2 * std::numbers::pi : drive_period(scene.parts, scene.inputs); }
+
 double first_time_at(double phase, Parts const& parts, Inputs const& inputs) { return first_time_at(phase, info(parts.mechanism), parts.drive, inputs); }
 
 double steady_period(Parts parts, Inputs const& inputs) {

@@ -28,7 +28,7 @@ void read_neighbours(Reading& reading) {
     Node const* const per_turn = reading.given("study.rescalings_per_revolution");
     if (!reading.given("study.dt")) {
         double const rescalings = per_turn != nullptr ? static_cast<double>(read_count(*per_turn, setting("study.rescalings_per_revolution"))) : 2000;
-        chaos.dt = {1 / rescalings, std::isfinite(drive_period(scene.parts, scene.inputs))};
+        chaos.dt = {1 / rescalings, std::isfinite(turn_length(scene))};
     }
     if (chaos.d0 < 1e-9)
         reading.warn(fmt::format("study.d0 is {} and below 1e-9 rounding shows: in impacts an offset's part in the positions is 1e-5 of it", chaos.d0));
@@ -70,7 +70,7 @@ void check_length(Reading const& reading) {
 void read_history(Reading& reading) {
     Scene& scene = reading.scene;
     ChaosSettings& chaos = scene.chaos;
-    double const rescalings = parts_of(chaos.span, chaos.dt, drive_period(scene.parts, scene.inputs));
+    double const rescalings = parts_of(chaos.span, chaos.dt, turn_length(scene));
     if (!(rescalings >= 1)) {
         refuse_study(reading.root, given_span(reading), "study.revolutions",
                      {"it ends before the first rescaling", "record for longer, or rescale oftener"});
@@ -84,7 +84,7 @@ void read_history(Reading& reading) {
 void check_memory(Reading const& reading) {
     Scene const& scene = reading.scene;
     ChaosSettings const& chaos = scene.chaos;
-    double const period = drive_period(scene.parts, scene.inputs), numbers = info(scene.parts.mechanism).states;
+    double const period = turn_length(scene), numbers = info(scene.parts.mechanism).states;
     double sections = 0;
     if (scene.study != StudyKind::lyapunov) {
         sections = chaos.section.is_phase() ? parts_of(chaos.span, {1, true}, period) + 1 : static_cast<double>(chaos.max_crossings);
@@ -111,8 +111,9 @@ void check_memory(Reading const& reading) {
 RunLength run_length(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     auto const at = [&](double period) { return chaos.transient.seconds(period) + chaos.span.seconds(period); };
-    double const own = drive_period(scene.parts, scene.inputs);
+    double const own = turn_length(scene);
     double const stops = chaos.exponents > 0 ? at(own) / chaos.dt.seconds(own) : chaos.section.is_phase() ? at(own) / own : 0;
+    if (scene.goes_by_turns()) return {scene.integrator.end_time, scene.integrator.end_time, std::ceil(stops)};
     return {at(own), std::max(at(own), at(drive_periods(scene).most)), std::ceil(stops)};
 }
 
@@ -121,7 +122,7 @@ void read_orbits(Reading& reading) {
     ChaosSettings& chaos = scene.chaos;
     bool const lyapunov = scene.study == StudyKind::lyapunov, sweep = scene.study == StudyKind::sweep;
     // Where nothing turns there are no revolutions; each that would be the default is a second, as in an ensemble.
-    bool const turns = std::isfinite(drive_period(scene.parts, scene.inputs));
+    bool const turns = reading.given("study.time_limit") != nullptr || std::isfinite(drive_period(scene.parts, scene.inputs));
     if (!reading.given_of({"study.Ttr", "study.transient_revolutions"})) chaos.transient = {lyapunov ? 2.0 : 20.0, turns};
     if (!given_span(reading)) chaos.span = {lyapunov ? 10.0 : sweep ? 50.0 : 150.0, turns};
     if (Node const* const table = lyapunov ? nullptr : reading.given("study.section")) read_section(*table, scene);

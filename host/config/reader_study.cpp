@@ -45,7 +45,9 @@ double read_end_time(Reading const& reading) {
     Scene& scene = reading.scene;
     double const turn = drive_period(scene.parts, scene.inputs);
     Node const* const node = reading.given_of({"study.duration", "study.revolutions"});
-    if (node == nullptr) scene.chaos.span = {1, std::isfinite(turn)};
+    bool const has_limit = reading.given("study.time_limit") != nullptr;
+    if (node == nullptr) scene.chaos.span = {1, has_limit || std::isfinite(turn)};
+    if (has_limit) return scene.integrator.end_time;
     double const seconds = scene.chaos.span.seconds(turn);
     if (seconds > 0 && seconds <= longest_time) return seconds;
     std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn), advice = fmt::format("stay below {} s", longest_time);
@@ -60,34 +62,42 @@ void check_drive_is_resolved(Reading const& reading, double seconds) {
     throw SceneError(fmt::format("{}: the study is too long: {}; {}", reading.root.where, problem->reason, problem->advice));
 }
 
-/// How many times a time series has.
-std::size_t read_samples(Reading const& reading, double end_time) {
+/// How many times a time series has.  @param length until when, in what members go by
+std::size_t read_samples(Reading const& reading, double length) {
     Scene const& scene = reading.scene;
     double const most = static_cast<double>(setting("study.samples").most);  // of one member: they stay in memory while it runs
     if (Node const* const node = reading.given("study.samples")) {
         std::uint64_t const count = read_count(*node, setting("study.samples"));
         if (count == 1) refuse(*node, {"the first and the last time are both stored", "use 0 or at least 2"});
-        if (count > 1 && end_time / static_cast<double>(count) < std::numeric_limits<double>::min())
-            refuse(*node, {fmt::format("no numbers tell the times of {} s apart", end_time), "use a longer study.duration"});
+        if (count > 1 && length / static_cast<double>(count) < std::numeric_limits<double>::min())
+            refuse(*node, {fmt::format("no numbers tell the times of {} s apart", length), "use a longer study.duration"});
         return count;
     }
     Node const* const node = reading.given("study.samples_per_revolution");
     std::uint64_t const per_turn = node != nullptr ? read_count(*node, setting("study.samples_per_revolution")) : 0;
     if (per_turn == 0) return 0;
-    double const turn = drive_period(scene.parts, scene.inputs);
+    double const turn = turn_length(scene);
     if (!std::isfinite(turn)) refuse_at_rest(*node, scene.parts, "study.samples");
-    double const turns = scene.chaos.span.revolutions ? scene.chaos.span.value : end_time / turn;
+    double const turns = scene.chaos.span.revolutions ? scene.chaos.span.value : length / turn;
     double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * turns));
     if (intervals >= most) refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1), fmt::format("ask for at most {}", most)});
     return static_cast<std::size_t>(intervals) + 1;
 }
 
-/// `count` times from 0 to end_time, both included; count is 0 or at least 2.
-std::vector<double> uniform_times(double end_time, std::size_t count) {
+/// `count` times from 0 to the end, both included; count is 0 or at least 2.
+std::vector<double> uniform_times(double end, std::size_t count) {
     std::vector<double> times(count);
-    for (std::size_t i = 0; i < count; ++i) times[i] = end_time * static_cast<double>(i) / static_cast<double>(count - 1);
-    if (count > 0) times.back() = end_time;
+    for (std::size_t i = 0; i < count; ++i) times[i] = end * static_cast<double>(i) / static_cast<double>(count - 1);
+    if (count > 0) times.back() = end;
     return times;
+}
+
+/// Until when members run that have a known end, and when they are sampled on the way.
+void read_times(Reading const& reading, double end) {
+    Scene& scene = reading.scene;
+    double const length = scene.goes_by_turns() ? scene.chaos.span.seconds(turn_length(scene)) : end;
+    scene.sample_times = uniform_times(length, read_samples(reading, length));
+    if (!scene.goes_by_turns()) scene.chaos.span = {end, false};
 }
 
 Problem const untold_by_rigid_contacts{"rigid contacts tell their normal forces in sum alone", "remove it, or use another contact.law"};
@@ -184,7 +194,7 @@ void read_recording(Reading& reading) {
     scene.integrator.end_time = end;
     read_steps(reading, length);
     check_drive_is_resolved(reading, length.longest);
-    if (samples) scene.sample_times = uniform_times(end, read_samples(reading, end)), scene.chaos.span = {end, false};
+    if (samples) read_times(reading, end);
     if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;
     Node const* const list = reading.given("study.quantities");
     if (list != nullptr) read_quantities(reading, *list);

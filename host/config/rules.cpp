@@ -18,7 +18,9 @@ using R = Reading const&;
 bool rigid(R r) { return r.scene.parts.rigid; }
 bool spatial(R r) { return info(r.scene.parts.mechanism).spatial; }
 bool is_shaped(R r) { return r.given("way_profile") != nullptr || r.given("way_ends") != nullptr; }
-bool turns(R r) { return std::isfinite(drive_period(r.scene.parts, r.scene.inputs)); }
+bool turns_freely(R r) { return r.scene.parts.drive.turns_freely(); }
+bool by_turns(R r) { return turns_freely(r) && r.given("study.time_limit"); }
+bool turns(R r) { return by_turns(r) || std::isfinite(drive_period(r.scene.parts, r.scene.inputs)); }
 bool to_end(R r) { return runs_to_end(r.scene.study); }
 bool is_sweep(R r) { return r.scene.study == StudyKind::sweep; }
 bool asks_for_exponents(R r) { return is_sweep(r) || r.scene.study == StudyKind::lyapunov; }
@@ -33,6 +35,11 @@ bool no_exponents(R r) { return asks_for_exponents(r) && r.scene.chaos.exponents
 bool several_exponents(R r) { return asks_for_exponents(r) && r.scene.chaos.exponents > 1; }
 bool is_whole(Span const& span) { return span.revolutions && span.value == std::floor(span.value); }
 bool begins_anywhere(R r) { return is_sweep(r) && r.scene.chaos.continued && r.scene.chaos.transient.value != 0 && !is_whole(r.scene.chaos.transient); }
+/// Of a crank that turns freely its speed is where it starts.
+bool starts_by_parameter(R r) {
+    Key const& key = *r.scene.chaos.parameter;
+    return is_of_start(key) || (turns_freely(r) && key.name == "mechanism.crank_speed");
+}
 bool steps_in_time(R r) { return by(r, Method::moreau_jean); }
 bool by_drive(R r, DriveBy by) { return r.scene.parts.drive.by == by; }
 bool on_profile(R r) { return by_drive(r, DriveBy::profile); }
@@ -79,7 +86,7 @@ bool rings(R r) {
 
 bool has_one_section(R r) {
     ChaosSettings const& chaos = r.scene.chaos;
-    double const turn = drive_period(r.scene.parts, r.scene.inputs);
+    double const turn = turn_length(r.scene);
     return is_sweep(r) && chaos.exponents > 0 && chaos.transient.value == 0 && chaos.span.seconds(turn) < 2 * turn;
 }
 
@@ -88,6 +95,8 @@ constexpr std::string_view replaced = "contact.restitution replaces it", one_of_
 constexpr std::string_view no_series = "kind = \"{study}\" stores no time series", with_series = "remove it, or use kind = \"ensemble\"";
 constexpr std::string_view values_of_sweep = "a sweep needs its values", give_values = "give study.values, or study.from, study.to and study.points";
 constexpr std::string_view no_revolutions = "{rest}, so there are no revolutions", no_angle = "{rest}, so no crank angle comes round";
+constexpr std::string_view may_not_turn = "a crank that turns freely may never turn so far", give_limit = "add time_limit = \"60 s\"",
+                           counts_turns = "with study.time_limit revolutions are counted";
 constexpr std::string_view drawn_designs = "use \"mc\", \"lhs\" or \"sobol\"", uncorrelated = "remove it, or use \"mc\", \"lhs\" or \"sobol\"";
 constexpr std::string_view with_design = "with design \"{design}\"", without_exponents = "with study.exponents = 0";
 constexpr std::string_view rescaled = "with several exponents: their neighbours are rescaled every time";
@@ -174,10 +183,16 @@ constexpr KeyRule rows[] = {
      "sensitivities of design \"saltelli\" are of keys that vary alone", uncorrelated},
     {members, "study.correlation", [](R r) { return of(r, DesignKind::grid); }, excludes, "a grid takes its levels of each key alone", uncorrelated},
 
+    {orbits, "study.time_limit", [](R r) { return !turns_freely(r); }, excludes, "revolutions of the drive last as long as they do", "remove it"},
+    {orbits, "study.time_limit", [](R r) { return r.given("study.duration") != nullptr; }, excludes, "study.duration ends members before", one_of_two},
+    {orbits, "study.time_limit", [](R r) { return turns_freely(r) && r.given("study.revolutions"); }, needs, may_not_turn, give_limit, "study.revolutions"},
+    {orbits, "study.time_limit", [](R r) { return turns_freely(r) && by_phase(r); }, needs, may_not_turn, give_limit, "study.kind"},
+    {orbits, "study.Ttr", by_turns, excludes, counts_turns, "use study.transient_revolutions"},
+    {orbits, "study.dt", by_turns, excludes, counts_turns, "use study.rescalings_per_revolution"},
     {orbits, "study.transient_revolutions", at_rest, excludes, no_revolutions, "use study.Ttr instead"},
     {orbits, "study.revolutions", at_rest, excludes, no_revolutions, "use study.duration instead"},
     {orbits, "study.phase", [](R r) { return at_rest(r) && by_phase(r) && !is_sweep(r); }, cannot, no_angle, "give study.section"},
-    {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r) && r.scene.parts.drive.by != DriveBy::speed; }, cannot, no_angle, "use drive.kind = \"speed\", or a profile that repeats"},
+    {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r) && on_profile(r); }, cannot, no_angle, "use drive.kind = \"speed\", or a profile that repeats"},
     {orbits, "study.phase", [](R r) { return at_rest(r) && is_sweep(r); }, cannot, no_angle, "give the crank a speed"},
     {orbits, "study.rescalings_per_revolution", at_rest, excludes, no_revolutions, "use study.dt instead"},
     {orbits, "study.d0", no_exponents, idle, without_exponents},
@@ -190,7 +205,7 @@ constexpr KeyRule rows[] = {
      "a sweep records whole revolutions", "use an integer"},
     {orbits, "study.Ttr", begins_anywhere, excludes, columns_begin, whole_transient},
     {orbits, "study.transient_revolutions", begins_anywhere, excludes, columns_begin, whole_transient},
-    {orbits, "study.start", [](R r) { return is_sweep(r) && r.scene.chaos.continued && is_of_start(*r.scene.chaos.parameter); }, excludes,
+    {orbits, "study.start", [](R r) { return is_sweep(r) && r.scene.chaos.continued && starts_by_parameter(r); }, excludes,
      "{parameter} is where a member starts, and columns start where the one before ended", "use start = \"fresh\", or another parameter"},
     {orbits, "study.start",
      [](R r) { return r.scene.chaos.continued && info(r.scene.parts.mechanism).drive == DriveKind::carriage && r.scene.chaos.section.level != 0; }, excludes,

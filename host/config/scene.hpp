@@ -138,6 +138,9 @@ struct Scene {
     std::vector<std::string> warnings;       // one line each: what was given and has no effect, and what was not given and matters
 
     bool stores_members() const { return store == Store::members; }
+    /// Whether members end, stop and are sampled by what their crank has turned (BlockBase::by_turns): revolutions of one that turns freely.  Sample
+    /// times are then angles [rad], and integrator.end_time is study.time_limit.
+    bool goes_by_turns() const { return parts.drive.turns_freely() && chaos.span.revolutions; }
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set key=value, in order
@@ -172,6 +175,9 @@ void prepare_sampler(Scene& scene);
 /// number only (its design, seed and key names), so any member can be drawn alone, on any thread or machine.
 /// In a sweep members [0, members) are the starts of the first column, and so on: each column has the same starts.
 Inputs member_inputs(Scene const& scene, std::uint64_t member);
+
+/// A period of the scene's drive in what its members go by: seconds, or, by turns, 2π.
+double turn_length(Scene const& scene);
 
 /// Why the place of a drive is not known well enough at the end, or nothing: it follows from the time alone, and the last bit of a double moves a crank
 /// pin after N revolutions by 2π N ε r.

@@ -35,6 +35,9 @@ std::size_t section_width(BlockRequest const& request) {
     return request.sections ? rows * section_columns(request.states) : 0;
 }
 
+/// Times of samples that are taken at angles.
+std::size_t clock_width(BlockRequest const& request) { return request.by_turns ? request.sample_times.size() : 0; }
+
 std::size_t shadow_count(BlockRequest const& request) { return static_cast<std::size_t>(request.shadows.count); }
 
 std::size_t growth_width(BlockRequest const& request) { return request.stops.growths() * shadow_count(request); }
@@ -43,7 +46,7 @@ std::size_t growth_width(BlockRequest const& request) { return request.stops.gro
 
 std::uint64_t block_bytes(BlockRequest const& request, std::size_t members) {
     std::uint64_t const numbers = request.columns + series_width(request) +
-                                  section_width(request) + growth_width(request) +
+                                  section_width(request) + growth_width(request) + clock_width(request) +
                                   request.states * (1 + shadow_count(request));
     std::uint64_t const per_member = 2 * sizeof(Inputs) + sizeof(char) + sizeof(std::uint32_t) + sizeof(MemberRecord) +
                                      sizeof(MemberClock) + sizeof(double) * numbers;
@@ -88,6 +91,7 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     series_.assign(members * series_width(request), nan);
     sections_.assign(members * section_width(request), nan);
     growths_.assign(members * growth_width(request), nan);
+    sample_clock_.assign(members * clock_width(request), nan);
 
     order_.clear();
     if (request.cost) sort_by_cost(request.cost);
@@ -115,6 +119,8 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     block.series_values = series_.data();
     block.section_values = sections_.empty() ? nullptr : sections_.data();
     block.growth_values = growths_.empty() ? nullptr : growths_.data();
+    block.by_turns = request.by_turns;
+    block.sample_clock = sample_clock_.data();
     if (block.members > 0) kernel(block);
     lane_steps_executed_ = block.lane_steps_executed;
     lane_steps_useful_ = block.lane_steps_useful;
@@ -128,11 +134,12 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     spread_rows(quantities_, is_usable_, usable, 1, request.columns, nan);
     spread_rows(sections_, is_usable_, usable, 1, section_width(request), nan);
     spread_rows(growths_, is_usable_, usable, 1, growth_width(request), nan);
+    spread_rows(sample_clock_, is_usable_, usable, 1, clock_width(request), nan);
     spread_rows(series_, is_usable_, usable, static_cast<std::size_t>(std::popcount(block.series)), block.samples, nan);
 }
 
 BlockResult BlockBuffers::result() const {
-    return {members_, drawn_, records_, final_states_, quantities_, series_, sections_, growths_};
+    return {members_, drawn_, records_, final_states_, quantities_, series_, sections_, growths_, sample_clock_};
 }
 
 }  // namespace slideway

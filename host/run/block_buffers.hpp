@@ -21,6 +21,7 @@ struct BlockResult {
     std::span<double const> series;          // [selected series, in table order][members][samples]
     std::span<double const> sections;        // [members][sections][section_columns(states())]; NaN where not reached
     std::span<double const> growths;         // [members][growths][shadows], ln; NaN where not reached
+    std::span<double const> clock = {};      // [members][samples], by turns: when each was [s]; NaN likewise
 
     /// Numbers of a member's state.
     std::size_t states() const { return members.empty() ? 0 : final_states.size() / members.size(); }
@@ -49,7 +50,7 @@ using ShadowDirections = std::function<void(std::uint64_t member, double* direct
 /// What every block of a run has in common.
 struct BlockRequest {
     IntegratorSettings integrator;
-    std::vector<double> sample_times;  // empty: no time series
+    std::vector<double> sample_times;  // empty: no time series; by turns angles
     Selection quantities = 0;
     Selection series = 0;
     MemberCost cost;      // empty: members start in their order
@@ -59,6 +60,7 @@ struct BlockRequest {
     CrossingPlan crossings;
     ShadowPlan shadows;  // its directions are those of
     ShadowDirections directions;
+    bool by_turns = false;  // BlockBase::by_turns
     std::size_t states = state_size;  // numbers of a member's state
     std::size_t columns = quantity_columns;  // of a member's row of all quantities
 };
@@ -95,7 +97,7 @@ private:
     std::vector<char> is_usable_;
     std::vector<std::uint32_t> order_;
     std::vector<MemberRecord> records_;
-    std::vector<double> final_states_, quantities_, series_, sections_, growths_;
+    std::vector<double> final_states_, quantities_, series_, sections_, growths_, sample_clock_;
     std::vector<MemberClock> clocks_;
     std::vector<double> directions_;
     std::uint64_t lane_steps_executed_ = 0, lane_steps_useful_ = 0;

@@ -48,7 +48,8 @@ void add_coordinates(ResultColumns& list, ResultLayout const& layout) {
     }
     if (layout.sample_times.empty()) return;
     list.dimensions.push_back({"sample", layout.sample_times.size()});
-    list.columns.push_back({"time", "s", "time since the start of the run", {"sample"}});
+    if (layout.by_turns) list.columns.push_back({"turned", "rad", "what the crank has turned since the start of the run", {"sample"}});
+    else list.columns.push_back({"time", "s", "time since the start of the run", {"sample"}});
     list.columns.back().values = layout.sample_times;
 }
 
@@ -88,12 +89,17 @@ void add_quantities(ResultColumns& list, ResultLayout const& layout) {
 
 void add_series(ResultColumns& list, ResultLayout const& layout) {
     if (layout.sample_times.empty()) return;
+    std::string const place = layout.by_turns ? "turned" : "time";
+    if (layout.by_turns) {
+        auto const clock = row_of([samples = layout.sample_times.size()](EndedMember const& row) { return row.block.clock.subspan(row.place * samples, samples); });
+        list.columns.push_back({"time", "s", "time at which the member's crank had turned so far", {"member", "sample"}, place, clock});
+    }
     std::size_t number = 0;
     for (SeriesInfo const& series : selected(outputs_of(layout.mechanism).series, layout.series)) {
         auto const source = row_of([k = number++, samples = layout.sample_times.size()](EndedMember const& row) {
             return row.block.series.subspan((k * row.block.members.size() + row.place) * samples, samples);
         });
-        list.columns.push_back({series.name, series.unit, series.long_name, {"member", "sample"}, "time", source});
+        list.columns.push_back({series.name, series.unit, series.long_name, {"member", "sample"}, place, source});
     }
 }
 

@@ -65,6 +65,7 @@ struct ResultLayout {
     MemberSet members;
     Mechanism mechanism{};             // whose states are stored
     std::vector<double> sample_times;  // empty: no time series
+    bool by_turns = false;             // they are angles that the crank has turned
     Selection quantities = 0;
     Selection series = 0;
     std::vector<ResultColumn> parameters;  // what varies

@@ -14,8 +14,8 @@ namespace {
 KeptBlock kept(BlockResult const& block) {
     auto const of = [](auto values) { return std::vector(values.begin(), values.end()); };
     return [members = of(block.members), inputs = of(block.inputs), records = of(block.records), states = of(block.final_states),
-            quantities = of(block.quantities), series = of(block.series), sections = of(block.sections), growths = of(block.growths)] {
-        return BlockResult{members, inputs, records, states, quantities, series, sections, growths};
+            quantities = of(block.quantities), series = of(block.series), sections = of(block.sections), growths = of(block.growths), clock = of(block.clock)] {
+        return BlockResult{members, inputs, records, states, quantities, series, sections, growths, clock};
     };
 }
 

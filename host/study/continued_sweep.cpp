@@ -126,6 +126,7 @@ private:
             if (!place.is_known) return true;
             put(inputs, place.there, info(scene_.parts.mechanism).spatial);
             inputs.start_angle = scene_.chaos.section.level;  // where the column before has ended
+            if (scene_.goes_by_turns()) inputs.crank_speed = place.there.crank_speed;
             return true;
         };
         buffers.run(kernel, request_, source, stop_, members);

@@ -30,6 +30,7 @@ BlockRequest block_request(Scene const& scene) {
                          schedule.crossings,
                          shadow_plan(scene),
                          {}};
+    request.by_turns = schedule.by_turns;
     request.states = static_cast<std::size_t>(info(scene.parts.mechanism).states);
     request.columns = outputs_of(scene.parts.mechanism).columns;
     request.directions = [seed = scene.seed, shadows = request.shadows.count, parts = scene.parts](
@@ -48,6 +49,7 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     layout.members = members;
     layout.mechanism = scene.parts.mechanism;
     layout.sample_times = scene.sample_times;
+    layout.by_turns = scene.goes_by_turns();
     layout.quantities = scene.quantities;
     layout.series = scene.series;
     auto const add = [&layout](Key const& key) { layout.parameters.push_back(parameter_column(key.name, key.unit, key.meaning, key.member)); };

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
+#include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
 
 namespace slideway {
@@ -64,6 +66,13 @@ void ExponentTable::add_exponents() {
             return widths;
         });
     add("lyapunov_exponent_late", "s-1", "exponent of the second half of the record alone", along, [](Member const& m) { return m.exponents.late; });
+    if (schedule_.by_turns) {
+        add("lyapunov_exponent_per_turn", "1", "growth of offsets in a turn of the crank, ln", along, [](Member const& m) {
+            Numbers values = m.exponents.value;
+            for (double& value : values) value *= m.turn;
+            return values;
+        });
+    }
     add("lyapunov_time", "s", "time over which the exponents are taken, after the transient", {},
         [](Member const& m) { return Numbers{m.log.length * static_cast<double>(m.log.intervals())}; });
     if (exponents_ < 2) return;
@@ -106,15 +115,21 @@ void ExponentTable::add_history(std::size_t points) {
 
 ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_t i) const {
     Inputs const& inputs = block.inputs[i];
-    double const spacing = schedule_.timing(inputs).period;
+    double spacing = schedule_.timing(inputs).period, turn = drive_period(parts_, inputs);
     std::size_t const per_member = schedule_.stops.growths() * exponents_;
     GrowthLog log{block.growths.subspan(i * per_member, per_member), exponents_,
                   spacing * static_cast<double>(schedule_.stops.growth_every)};
-    double const per_turn = drive_period(parts_, inputs) / log.length;
+    if (schedule_.by_turns) {
+        // What lies between two angles counts as long as any other: as their mean.
+        MemberRecord const& record = block.records[i];
+        double const turned = log.length * static_cast<double>(log.intervals()), pace = turned > 0 ? (record.time - record.growth_from) / turned : nan;
+        turn = 2 * std::numbers::pi * pace, spacing *= pace, log.length *= pace;
+    }
+    double const per_turn = turn / log.length;
     // Records that do not divide a turn have no period of its own.
     bool const divides = std::abs(per_turn - std::round(per_turn)) < 1e-6 * per_turn && per_turn >= 0.5;
     if (divides && per_turn < 1e9) log.period = static_cast<std::size_t>(std::round(per_turn));
-    return {log, exponents_of(log), least_distance / (d0_ * spacing), block.records[i]};
+    return {log, exponents_of(log), least_distance / (d0_ * spacing), turn, block.records[i]};
 }
 
 std::vector<double> ExponentTable::row(BlockResult const& block, std::size_t place) const {

@@ -30,6 +30,7 @@ private:
         GrowthLog log;
         Exponents exponents;
         double resolution;  // [1/s]
+        double turn;        // how long one of the drive lasts, in the mean [s]
         MemberRecord const& record;
     };
     /// A member's row of a column.

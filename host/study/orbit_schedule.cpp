@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/config/descriptors.hpp"
 #include "host/sampling/random.hpp"
@@ -19,6 +20,21 @@ MemberClock clock(double first, double spacing, std::size_t stops) {
     return {std::fma(static_cast<double>(stops - 1), spacing, first), first, spacing};
 }
 
+/// Of a member that goes by turns, from angles.  @param first_back its first stop, if its crank turns back
+MemberClock by_turns(MemberClock angles, double first_back, double time_limit) {
+    if (angles.period == 0) angles.turns = angles.end;  // the others end at their last stop
+    angles.first_back = first_back;
+    angles.end = time_limit;
+    return angles;
+}
+
+/// What a crank turns, forward, until it comes to a phase: in (0, 2π].  A start at the phase itself is no return to it.
+double way_to(double phase, double start) {
+    constexpr double turn = 2 * std::numbers::pi;
+    double const way = std::fmod(phase - start, turn), positive = way > 0 ? way : way + turn;
+    return positive > 1e-9 * turn ? positive : positive + turn;
+}
+
 /// Rescalings to a record: a divisor of `rescalings` if there is one that leaves neither too few records nor too many.
 std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetitions = 1,
                                   std::size_t records = least_records) {
@@ -33,7 +49,7 @@ std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetition
 /// Rescalings every dt from the start; those of the transient leave no record.
 OrbitSchedule of_exponents(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    double const turn = drive_period(scene.parts, scene.inputs), dt = chaos.dt.seconds(turn);
+    double const turn = turn_length(scene), dt = chaos.dt.seconds(turn);
     OrbitSchedule schedule;
     StopPlan& stops = schedule.stops;
     std::size_t const rescalings = std::max<std::size_t>(1, whole(chaos.span.seconds(turn) / dt));
@@ -41,6 +57,11 @@ OrbitSchedule of_exponents(Scene const& scene) {
     std::size_t const records = (rescalings + stops.growth_every - 1) / stops.growth_every;
     stops.transient = std::max<std::size_t>(1, whole(chaos.transient.seconds(turn) / dt)) - 1;
     stops.count = stops.transient + records * stops.growth_every + 1;
+    if (scene.goes_by_turns()) {
+        MemberClock const of_all = by_turns(clock(dt, dt, stops.count), dt, scene.integrator.end_time);
+        schedule.timing = [of_all](Inputs const&) { return of_all; };
+        return schedule;
+    }
     schedule.timing = [parts = scene.parts, spacing = chaos.dt, count = stops.count](Inputs const& inputs) {
         double const length = spacing.seconds(drive_period(parts, inputs));
         return clock(length, length, count);
@@ -51,7 +72,7 @@ OrbitSchedule of_exponents(Scene const& scene) {
 /// Sections once a revolution, with rescalings at equal times between them if there are shadows.
 OrbitSchedule of_sections(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    double const turn = drive_period(scene.parts, scene.inputs);
+    double const turn = turn_length(scene);
     std::size_t const per_turn =
         chaos.exponents > 0 ? std::max<std::size_t>(1, whole(turn / chaos.dt.seconds(turn))) : 1;
     std::size_t const transient = whole(std::ceil(chaos.transient.seconds(turn) / turn - 1e-9));
@@ -66,8 +87,14 @@ OrbitSchedule of_sections(Scene const& scene) {
         schedule.stops.growth_lead = transient > 0 ? per_turn : 0;
         schedule.stops.growth_every = rescalings_per_record(per_turn, sections);
     }
-    schedule.timing = [parts = scene.parts, phase = chaos.section.level, per_turn,
-                       count = schedule.stops.count](Inputs const& inputs) {
+    std::size_t const count = schedule.stops.count;
+    if (scene.goes_by_turns()) {
+        schedule.timing = [phase = chaos.section.level, spacing = turn / static_cast<double>(per_turn), count, limit = scene.integrator.end_time](Inputs const& in) {
+            return by_turns(clock(way_to(phase, in.start_angle), spacing, count), way_to(in.start_angle, phase), limit);
+        };
+        return schedule;
+    }
+    schedule.timing = [parts = scene.parts, phase = chaos.section.level, per_turn, count](Inputs const& inputs) {
         double const spacing = drive_period(parts, inputs) / static_cast<double>(per_turn);
         return clock(first_time_at(phase, parts, inputs), spacing, count);
     };
@@ -101,11 +128,24 @@ OrbitSchedule of_crossings(Scene const& scene) {
     bool const of_state = chaos.section.on == SectionSurface::On::state;
     bool const turns = of_state && info(scene.parts.mechanism).state[chaos.section.index] == Series::crank_angle;
     schedule.crossings = {crossings_of(scene), chaos.section.direction, turns, chaos.section.index, chaos.section.level, chaos.max_crossings};
+    if (scene.goes_by_turns()) {
+        double const from = chaos.transient.seconds(turn_length(scene)), to = from + chaos.span.seconds(turn_length(scene));
+        MemberClock const of_all = by_turns({to, from, 0}, from, scene.integrator.end_time);
+        schedule.timing = [of_all](Inputs const&) { return of_all; };
+        return schedule;
+    }
     schedule.timing = [parts = scene.parts, transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
         double const period = drive_period(parts, inputs), from = transient.seconds(period);
         return MemberClock{from + span.seconds(period), from, 0};
     };
     return schedule;
+}
+
+/// What a crank has turned at the end, whichever way it turns, at least [rad].
+double least_turned(OrbitSchedule const& schedule, Scene const& scene) {
+    MemberClock const own = schedule.timing(scene.inputs);
+    std::size_t const stops = schedule.stops.count;
+    return stops == 0 ? own.turns : std::fma(static_cast<double>(stops - 1), own.period, std::min(own.first_stop, own.first_back));
 }
 
 }  // namespace
@@ -116,7 +156,13 @@ OrbitSchedule orbit_schedule(Scene const& scene) {
     if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) {
         schedule = scene.chaos.section.on == SectionSurface::On::phase ? of_sections(scene) : of_crossings(scene);
     }
+    if (scene.goes_by_turns() && !schedule.timing) {
+        MemberClock const of_all = by_turns({.end = scene.chaos.span.seconds(turn_length(scene))}, 0, scene.integrator.end_time);
+        schedule.timing = [of_all](Inputs const&) { return of_all; };
+    }
+    schedule.by_turns = scene.goes_by_turns();
     schedule.end = schedule.timing ? schedule.timing(scene.inputs).end : scene.integrator.end_time;
+    schedule.turns = (schedule.by_turns ? least_turned(schedule, scene) : schedule.end) / turn_length(scene);
     return schedule;
 }
 

@@ -9,13 +9,15 @@
 namespace slideway {
 
 /// A study's stops.  All members have as many, at times of their own: a revolution is the period of the member's drive.  How many
-/// is decided by the drive of the scene.
+/// is decided by the drive of the scene.  By turns (Scene::goes_by_turns) stops are angles, and a revolution is 2π.
 struct OrbitSchedule {
     StopPlan stops;
     MemberTiming timing;
     CrossingPlan crossings;  // of sections on a state or a gap
     bool sections = false;   // the states at the stops' sections are kept
-    double end = 0;          // [s] of the scene's own member
+    bool by_turns = false;   // stops are angles
+    double end = 0;          // [s] of the scene's own member; by turns the time that it has
+    double turns = 0;        // periods of the drive until then; 0 where nothing comes round
 
     /// Rows of a member in the file, at most.
     std::size_t section_rows() const { return !sections ? 0 : crossings.room > 0 ? crossings.room : stops.sections(); }

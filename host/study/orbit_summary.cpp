@@ -92,6 +92,14 @@ std::vector<ExponentSummary> summarise_exponents(ResultView const& results) {
     return summaries;
 }
 
+std::optional<MeanOfMembers> growth_per_turn(ResultView const& results) {
+    char const* const name = "lyapunov_exponent_per_turn";
+    if (!results.has(name)) return {};
+    auto const finished = finished_members(results);
+    std::size_t const width = exponents_of(results, name);
+    return mean_of_members(finished_column(results.values(name, finished.size() * width), finished, width, 0));
+}
+
 OffsetHealth offset_health(ResultView const& results) {
     auto const finished = finished_members(results);
     double const exponents = static_cast<double>(exponents_of(results));

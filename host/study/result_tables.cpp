@@ -98,11 +98,16 @@ ExportTable table_of_series(ResultView const& results, std::vector<std::string> 
         throw SceneError(fmt::format("{}: has no series '{}'; {}", results.path(), name,
                                      meant.empty() ? fmt::format("use some of {}", fmt::join(there, ", ")) : fmt::format("did you mean {}?", meant)));
     }
-    ExportTable table{.name = "series", .members = results.shape("member").at(0), .samples = results.shape("time").at(0)};
+    ExportTable table{.name = "series", .members = results.shape("member").at(0), .samples = results.shape("time").back()};
     table.columns.push_back(stored_numbers(results, "member", "member"));
-    table.columns.push_back(stored_numbers(results, "time", "time"));
+    // At equal angles each member has times of its own.
+    bool const by_turns = results.has("turned");
+    std::string const place = by_turns ? "turned" : "time";
+    table.columns.push_back(stored_numbers(results, place, place));
     table.columns.back().along = TableColumns::Along::samples;
-    for (std::string const& name : names.empty() ? there : names) {
+    std::vector<std::string> shown = names.empty() ? there : names;
+    if (by_turns && std::ranges::count(shown, "time") == 0) shown.insert(shown.begin(), "time");
+    for (std::string const& name : shown) {
         table.columns.push_back(stored_numbers(results, name, name));
         table.columns.back().along = TableColumns::Along::both;
     }

@@ -168,6 +168,8 @@ StoredSeries read_result_series(ResultView const& file, std::string const& varia
     if (!file.has("time") && file.has("section_count")) return read_sections(file, variable, member_place(file, member));
     if (!file.has("time"))
         throw SceneError(path + ": has no time series; run the scene as kind = \"ensemble\" with study.samples");
+    if (file.has("turned"))
+        throw SceneError(path + ": its samples are at equal angles, not at equal times; run the scene with study.duration and study.samples");
     std::vector<double> const times = file.values("time");
     std::size_t const members = file.values("member").size();
     if (members == 0) throw SceneError(path + ": has no members");

@@ -51,7 +51,7 @@ private:
         if (!results_.has("time") || !has_all("")) return;
         std::vector<std::vector<double>> columns;
         for (int i = 0; i < mechanism_.states; ++i) columns.push_back(results_.rows(name(i), place_, 1));
-        std::vector<double> const times = results_.values("time");
+        std::vector<double> const times = results_.has("turned") ? results_.rows("time", place_, 1) : results_.values("time");
         for (std::size_t k = 0; k < times.size(); ++k) {
             std::size_t i = 0;
             offer("sample", wanted, times[k], [&](std::string const&) { return columns[i++].at(k); });

@@ -176,8 +176,7 @@ std::optional<EnergyCheck> audit_energy(std::vector<double> const& residuals, Sc
     for (double const residual : residuals) made.push_back(std::abs(residual));
     Summary const summary = summarise(made);
     if (summary.count == 0) return {};
-    double const end = orbit_schedule(scene).end, period = drive_period(scene.parts, scene.inputs);
-    double const share = summary.mean / std::max(1.0, end / period) / fall_energy(scene);
+    double const share = summary.mean / std::max(1.0, orbit_schedule(scene).turns) / fall_energy(scene);
     return EnergyCheck{share, !(share < most_energy)};
 }
 

@@ -21,6 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Orbit {
     std::size_t states = 0;
     std::vector<double> course;    // [looks][states]
+    std::vector<double> times;     // [looks]
     std::vector<double> sections;  // [sections][1 + states]: time and state
 
     std::size_t section_count() const { return sections.size() / (1 + states); }
@@ -29,7 +30,8 @@ struct Orbit {
 /// The same scene, with the states of its members along their time.
 Scene looked_at(Scene scene) {
     MechanismInfo const& has = info(scene.parts.mechanism);
-    double const end = orbit_schedule(scene).end;
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    double const end = schedule.by_turns ? schedule.turns * turn_length(scene) : schedule.end;
     scene.sample_times.clear();
     for (std::size_t i = 0; i < looks; ++i)
         scene.sample_times.push_back(std::min(end, end * static_cast<double>(i) / (looks - 1)));
@@ -55,6 +57,8 @@ Orbit orbit_of(Scene const& scene, FreshRun const& run) {
                 orbit.course[i * orbit.states + k] = block.series[place[k] * looks + i];
         }
         orbit.sections.assign(block.sections.begin(), block.sections.end());
+        orbit.times.assign(block.clock.begin(), block.clock.end());
+        if (orbit.times.empty()) orbit.times = looked.sample_times;
     };
     EnsemblePlan const plan = ensemble_plan(looked, MemberSet(MemberRange{0, 1}), run.backend, run.threads);
     StopRequest const nobody;
@@ -94,10 +98,10 @@ double distance(double const* a, double const* b, std::vector<double> const& sca
 }
 
 /// First time from which one is off the other; infinite if none is.
-double parting_of(Orbit const& one, Orbit const& other, std::vector<double> const& scales, double end) {
+double parting_of(Orbit const& one, Orbit const& other, std::vector<double> const& scales) {
     for (std::size_t i = 0; i < looks; ++i) {
         if (!(distance(&one.course[i * one.states], &other.course[i * one.states], scales) < parted_from))
-            return end * static_cast<double>(i) / (looks - 1);
+            return one.times[i];
     }
     return infinity;
 }
@@ -167,7 +171,6 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     Progress progress(task, request.progress, stderr, request.stop != nullptr ? *request.stop : nobody);
     FreshRun run{backend, request.threads, request.stop, &progress};
     std::vector<double> const scales = parting_scales(scene);
-    double const end = orbit_schedule(scene).end;
     Scene const bare = without_series(scene);
     v.study = fresh_numbers(bare, {0}, run);
     auto const stopped = [&] { return request.stop != nullptr && request.stop->reason() != StopReason::none; };
@@ -178,6 +181,7 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     v.members = {0};
     v.groups = {{"", {v.study.finished.front()}}};
     Orbit const own = orbit_of(bare, run);
+    double const end = own.times.back();
     v.orbit = OrbitCheck{end, infinity, own.section_count(), own.section_count()};
     v.again.resize(v.study.columns.size());
     double spent = 2 * v.study.total_work();
@@ -196,7 +200,7 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
         if (method.of_exponents) continue;
         Orbit const other = orbit_of(method.scene, run);
         if (stopped()) break;
-        v.orbit->parting = std::min(v.orbit->parting, parting_of(own, other, scales, end));
+        v.orbit->parting = std::min(v.orbit->parting, parting_of(own, other, scales));
         v.orbit->sections_before = std::min(v.orbit->sections_before, sections_alike(own, other, scales, end));
     }
     if (stopped()) {

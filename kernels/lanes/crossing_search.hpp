@@ -21,7 +21,7 @@ public:
         auto& c = pack.state.course;
         Surface const surface{pack, stepper, results.crossings(), whole.step, nearest_turn(results.crossings(), c.y, whole.end)};
         Real const zero(0.0), end = c.t + whole.step;
-        auto const recorded = accepted & (end > pack.state.constants.first_stop);
+        auto const recorded = accepted & (results.by_turns() ? results.records_at(pack.state, end, whole.end) : end > pack.state.constants.first_stop);
         Span span;
         span.v1 = surface.value(end, whole.end);
         Real ends_on = side_of(span.v1, c.side);
@@ -35,7 +35,7 @@ public:
             // by s0²/4 v1, which rounding of the values does not show, rests too.
             auto const rests = (span.v0 == zero) & (abs(span.s0) <= Real(1e-8) * abs(span.v1));
             Real const goes = select(rests, span.v1, span.s0), leaves_to = side_of(span.v0, side_of(goes, c.side));
-            auto const leaves = recorded & (span.v0 == zero) & (c.t >= pack.state.constants.first_stop) & (leaves_to * c.side < zero);
+            auto const leaves = recorded & (span.v0 == zero) & results.records_at(pack.state, c.t, c.y) & (leaves_to * c.side < zero);
             if (any(leaves)) record_start(pack, results, leaves, leaves_to);
             ends_on = select(recorded, side_of(span.v1, leaves_to), ends_on);
             span.v0 = beside_zero(span.v0, leaves_to);
@@ -122,7 +122,7 @@ private:
             if (none(at)) continue;
             place(pack, surface, attempt, {at, single}, zero, span);
             Real const t = pack.state.course.t + attempt.step;
-            at = at & (t >= pack.state.constants.first_stop);
+            at = at & results.records_at(pack.state, t, attempt.end);
             results.take_crossing(pack, at, t, attempt.end);
         }
     }

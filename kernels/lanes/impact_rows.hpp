@@ -17,7 +17,7 @@ template <class Model, class Real> struct ImpactRows {
             if (plan.room == 0 || !plan.of_impacts()) return;
             auto const& c = pack.state.course;
             auto const& books = pack.state.contacts.memory.books;
-            Mask<Real> at = changed & (books.count > Real(0.0)) & (c.t >= pack.state.constants.first_stop);
+            Mask<Real> at = changed & (books.count > Real(0.0)) & results.records_at(pack.state, c.t, c.y);
             if (none(at)) return;
             if (plan.on != CrossingPlan::On::impacts) at = at & met(books.met, Model::met_bit(plan.on == CrossingPlan::On::impacts_z, plan.index));
             if (plan.wants(Way::falling)) results.take_crossing(pack, at, c.t, before);

@@ -35,6 +35,7 @@ template <class Real> struct ShadowCourse {
     Real uncut;  // a step that was cut at an event, which the member is to go on with [s]
     Real lost;   // times that an offset had shrunk into rounding
     Real grown;  // times that one had grown to the size of the joint
+    Real from;   // when their growth began to be recorded [s]
 };
 
 /// What a member remembers for its next impact, of a method with clocks.
@@ -56,6 +57,7 @@ template <class Model, class Real> struct MemberState {
         Real scale[Model::size];  // what atol is relative to
         Real end;                 // [s]
         Real first_stop, stop_period;
+        Real turns, first_back, start_angle;  // of who goes by turns (MemberClock) [rad]
     };
 
     struct Course {
@@ -65,6 +67,7 @@ template <class Model, class Real> struct MemberState {
         Real crossings;     // so far
         Real side;          // of the section's surface that it was on last, 1 or −1; 0 where it has been on none
         Real t, h;          // time, next step [s]
+        Real aim;           // by turns: when the crank comes to the next angle, of a step that went beyond; else 0 [s]
         Real fine_time;     // what t has rounded off [s] (FineTime), 0 where that is not kept
         Real error_memory;  // of the step control
         Real y[Model::size], rates[Model::size];

@@ -4,6 +4,7 @@
 
 #include "kernels/block.hpp"
 #include "kernels/lanes/member_state.hpp"
+#include "kernels/observers/sampler.hpp"
 #include "kernels/real.hpp"
 #include "kernels/simd/expect.hpp"
 #include "kernels/steppers/step_control.hpp"
@@ -30,6 +31,9 @@ template <class Model> struct NewMember {
         r.constants.end = clock.end;
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
+        r.constants.turns = clock.turns;
+        r.constants.first_back = clock.first_back;
+        r.constants.start_angle = c.y[HasCrankState<Model> ? crank_place<Model>(Series::crank_angle) : 0];
         if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member);
         if constexpr (HasClocks<Model>) c.clocked = {0.0, c.h, 0.0, 0.0, 0.0};
         // A model without linearisation is left to the explicit pair.

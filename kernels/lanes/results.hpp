@@ -18,10 +18,21 @@ public:
     SLIDEWAY_HD std::size_t stops() const { return block_.stops.count; }
     SLIDEWAY_HD ShadowPlan const& shadows() const { return block_.shadows; }
 
-    /// Time of every lane's next stop, infinity after the last.
+    /// Whether members go by what their crank has turned, instead of by time; and what a state's has [rad].
+    SLIDEWAY_HD bool by_turns() const { return HasCrankState<Model> && block_.by_turns; }
+    template <class Real> SLIDEWAY_HD static Real turned(MemberState<Model, Real> const& s, Real const* state) {
+        return abs(state[crank] - s.constants.start_angle);
+    }
+    /// Time of every lane's next stop, or its angle by turns; infinity after the last.
     template <class Real> SLIDEWAY_HD Real next_stop(MemberState<Model, Real> const& s) const {
         auto const left = s.course.stop < Real(static_cast<double>(block_.stops.count));
-        return select(left, fma(s.course.stop, s.constants.stop_period, s.constants.first_stop), Real(endless));
+        Real first = s.constants.first_stop;
+        if (by_turns()) first = select(s.course.y[crank] < s.constants.start_angle, s.constants.first_back, first);
+        return select(left, fma(s.course.stop, s.constants.stop_period, first), Real(endless));
+    }
+    /// Lanes that have their transient behind them at a state, which crossings are recorded from.
+    template <class Real> SLIDEWAY_HD Mask<Real> records_at(MemberState<Model, Real> const& s, Real t, Real const* state) const {
+        return (by_turns() ? turned(s, state) : t) >= s.constants.first_stop;
     }
 
     /// The states of members at a stop, if it is one of their sections.
@@ -67,6 +78,7 @@ public:
             if (record == 0) {
                 set_lane(c.shadowed.lost, i, 0.0);
                 set_lane(c.shadowed.grown, i, 0.0);
+                set_lane(c.shadowed.from, i, lane(c.t, i));
             }
             SLIDEWAY_EXPECT(number(c.member, i) < block_.members && record <= plan.growths() && block_.growth_values != nullptr);
             double* const rows = block_.growth_values + number(c.member, i) * plan.growths() * shadows;
@@ -83,7 +95,7 @@ public:
         block_.lane_steps_useful += static_cast<std::uint64_t>(lanes_useful);
     }
 
-    /// Time of every lane's next sample after its time t, `last` where there is none before it.
+    /// Time of every lane's next sample after its time t, `last` where there is none before it; by turns angles.
     template <class Real> SLIDEWAY_HD Real next_sample_times(Real const& sample, Real const& t, Real last) const {
         for (int i = 0; i < lanes<Real>; ++i) {
             auto next = static_cast<std::size_t>(lane(sample, i));
@@ -95,27 +107,38 @@ public:
         return last;
     }
 
-    /// Series values at the sample times inside the accepted steps, from the stepper's dense output.
-    template <class Stepper, class Real>
+    /// Where samples are within a step: at times.  CrankTurns has them at angles.
+    template <class Real> struct SampleTimes {
+        Real start, end;
+
+        template <class Stepper>
+        SLIDEWAY_HD Real share_of(Pack<Model, Real> const&, Stepper const&, Attempt<Model, Real> const& attempt, Real at, Mask<Real> accepted) const {
+            return select(accepted, (at - start) / select(accepted, attempt.step, Real(1.0)), Real(0.0));
+        }
+        SLIDEWAY_HD Real time_of(Real, Real, Real, Real at) const { return at; }
+    };
+
+    /// Series values at the samples inside the accepted steps, from the stepper's dense output.
+    template <class Stepper, class Real, class Places>
     SLIDEWAY_HD void take_samples(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real> const& attempt,
-                                  Mask<Real> accepted, Real t_end) {
+                                  Mask<Real> accepted, Places const& places) {
         auto& c = pack.state.course;
         for (;;) {
-            Real at = c.t;
+            Real wanted = places.start;
             Real due_lanes(0.0);
             for (int i = 0; i < lanes<Real>; ++i) {
                 auto const next = static_cast<std::size_t>(lane(c.sample, i));
                 if (!holds(accepted, i) || next >= block_.samples) continue;
                 double const time = block_.sample_times[next];
-                if (time > lane(t_end, i)) continue;
+                if (time > lane(places.end, i)) continue;
                 set_lane(due_lanes, i, 1.0);
-                set_lane(at, i, time);
+                set_lane(wanted, i, time);
             }
             auto const due = due_lanes > Real(0.5);
             if (none(due)) return;
             stepper.prepare_dense(pack, attempt, due);
             auto const from = pack.start();
-            Real const theta = select(accepted, (at - c.t) / select(accepted, attempt.step, Real(1.0)), Real(0.0));
+            Real const theta = places.share_of(pack, stepper, attempt, wanted, accepted), at = places.time_of(c.t, attempt.step, theta, wanted);
             Real state[Model::size];
             stepper.dense(from, attempt, theta, state);
             typename Model::template Report<Real> report;
@@ -128,7 +151,7 @@ public:
             }
             for (int i = 0; i < lanes<Real>; ++i) {
                 if (!holds(due, i)) continue;
-                sampler_.write(i, number(c.member, i), number(c.sample, i), state, report, pack.model);
+                sampler_.write(i, number(c.member, i), number(c.sample, i), at, state, report, pack.model);
             }
             c.sample = c.sample + due_lanes;
         }
@@ -164,6 +187,7 @@ public:
                                   : holds(faults.contact_domain, i) ? Status::contact_domain
                                   : holds(divergent, i)             ? Status::nonfinite
                                   : holds(stuck, i)                 ? Status::step_too_small
+                                  : is_late(pack.state, i)          ? Status::out_of_time
                                                                     : Status::max_steps;
             double const time = lane(c.t, i);
             block_.records[member] = {status, number(c.accepted, i),  number(c.rejected, i),   number(c.evaluations, i),
@@ -172,6 +196,7 @@ public:
             if constexpr (Model::has_shadows) {
                 block_.records[member].lost_offsets = number(c.shadowed.lost, i);
                 block_.records[member].grown_offsets = number(c.shadowed.grown, i);
+                block_.records[member].growth_from = lane(c.shadowed.from, i);
             }
             for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
             if (block_.quantities != 0) {
@@ -195,6 +220,12 @@ public:
 
 private:
     static constexpr double endless = 1e300;
+    static constexpr int crank = HasCrankState<Model> ? crank_place<Model>(Series::crank_angle) : 0;
+
+    /// By turns the end of the time is no end.
+    template <class Real> SLIDEWAY_HD bool is_late(MemberState<Model, Real> const& s, int i) const {
+        return by_turns() && lane(s.course.t, i) >= lane(s.constants.end, i);
+    }
 
     /// Marks what a member that ended before stop `from` and after some crossings has not come to.
     SLIDEWAY_HD void fill_missing_stops(std::size_t member, std::size_t from, std::size_t crossings) {

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "kernels/lanes/crank_turns.hpp"
 #include "kernels/lanes/crossing_search.hpp"
 #include "kernels/lanes/free_steps.hpp"
 #include "kernels/lanes/clocked_steps.hpp"
@@ -79,8 +80,12 @@ private:
         auto& results = step_.results;
         auto& c = pack.state.course;
         Real time = pack.state.constants.end;
-        if (results.stops() > 0) time = min(time, results.next_stop(pack.state));
-        if (Stepper::stiff && results.samples() > 0) time = results.next_sample_times(c.sample, c.t, time);
+        if (results.by_turns()) {
+            time = turns_.landing(pack.state, results, Stepper::stiff);
+        } else {
+            if (results.stops() > 0) time = min(time, results.next_stop(pack.state));
+            if (Stepper::stiff && results.samples() > 0) time = results.next_sample_times(c.sample, c.t, time);
+        }
         step_.landing = time;
         step_.lands = contacts_.choose(step_, time - c.t);
         SLIDEWAY_EXPECT(none(pack.busy & (c.t > pack.state.constants.end)) && (Stepper::by_clock || none(pack.busy & (step_.attempt.step < Real(0.0)))));
@@ -99,7 +104,7 @@ private:
         Mask<Real> const overshot = contacts_.failed_landings(step_), failed = verdict.rejected & (negation(verdict.cut) | overshot);
         c.rejections = select(pack.busy, count<Real>(failed), c.rejections);
         Mask<Real> const still = verdict.rejected & (contacts_.time_of(step_, verdict.next) <= step_.resolution());
-        Mask<Real> stuck = step_.adapts() ? still : verdict.rejected;
+        Mask<Real> stuck = step_.adapts() ? still : verdict.rejected & !verdict.cut;
         step_.attempt.faults = step_.neighbours.faults_beside(step_.attempt.faults);
 
         auto finished = mask_of<Real>(false);
@@ -108,7 +113,8 @@ private:
             stuck = stuck | search_.piled_up(pack, step_.attempt.step);
         }
         contacts_.store_next(step_, verdict.next, next);
-        auto const spent = pack.busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(step_.settings.max_steps)));
+        auto spent = pack.busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(step_.settings.max_steps)));
+        if (step_.results.by_turns()) spent = spent | (pack.busy & !finished & (c.t >= pack.state.constants.end));
         Mask<Real> const ended = finished | stuck | spent, divergent = stuck & verdict.divergent;
         if (any(ended)) {
             step_.results.retire(pack, {ended, finished, stuck, divergent}, step_.attempt.faults.within(stuck));
@@ -131,6 +137,7 @@ private:
         auto& allowed = static_cast<Allowance<Real>&>(verdict);
         allowed = step_.adapts() ? allowed_by_error(verdict.divergent) : allowed_if_finite(verdict.divergent);
         verdict.cut = contacts_.cut(step_, allowed);
+        if (step_.results.by_turns()) verdict.cut = verdict.cut | turns_.cut(step_, allowed);
         if constexpr (Stepper::stiff && Model::has_patterns) {
             if (step_.is_auto()) verdict.impact = Choice::find_impacts(pack, step_.attempt, allowed.accepted);
         }
@@ -177,7 +184,8 @@ private:
         if (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack.begin_next(accepted, attempt.end_rates, attempt.report);
         contacts_.advance(step_, accepted, next);
-        if (step_.results.stops() > 0) stop(landed);
+        if (step_.results.stops() > 0) stop(accepted, landed);
+        if (step_.results.by_turns()) return turns_.at_end(accepted, pack.state, step_.results.stops());
         return (landed & (c.t >= pack.state.constants.end)) | search_.complete(pack, accepted);
     }
 
@@ -189,7 +197,11 @@ private:
                 CrossingSearch<Stepper, Model, Real>::run(step_.pack, results, step_.stepper, step_.attempt, accepted);
             }
         }
-        if (results.samples() > 0) results.take_samples(step_.pack, step_.stepper, step_.attempt, accepted, t_end);
+        if (results.samples() == 0) return;
+        auto const& s = step_.pack.state;
+        using Times = typename Results<Model>::template SampleTimes<Real>;
+        results.by_turns() ? results.take_samples(step_.pack, step_.stepper, step_.attempt, accepted, turns_.samples(s, step_.attempt, t_end))
+                           : results.take_samples(step_.pack, step_.stepper, step_.attempt, accepted, Times{s.course.t, t_end});
     }
 
     SLIDEWAY_HD void observe(Mask<Real> accepted) {
@@ -206,9 +218,10 @@ private:
     }
 
     /// Members that have landed at a stop: their section, and how their neighbours have departed.
-    SLIDEWAY_HD void stop(Mask<Real> landed) {
+    SLIDEWAY_HD void stop(Mask<Real> accepted, Mask<Real> landed) {
         auto& c = step_.pack.state.course;
-        auto const at = landed & (c.t >= step_.results.next_stop(step_.pack.state));
+        Real const next = step_.results.next_stop(step_.pack.state);
+        auto const at = step_.results.by_turns() ? turns_.at_stop(accepted, next) : landed & (c.t >= next);
         if (none(at)) return;
         step_.results.take_section(step_.pack, at);
         step_.neighbours.stop(step_.pack, step_.results, at);
@@ -219,6 +232,7 @@ private:
     StepControl control_;
     [[no_unique_address]] typename SearchFor<Model, Real>::Type search_;
     [[no_unique_address]] Contacts contacts_;
+    CrankTurns<Model, Real> turns_;
     Mask<Real> left_ = mask_of<Real>(false);  // lanes that leave the stiff method
 };
 

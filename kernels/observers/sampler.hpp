@@ -19,6 +19,16 @@ template <class Model> SLIDEWAY_HD constexpr int state_of_series([[maybe_unused]
     }
 }
 
+/// Where a model's state has angle and speed of a crank (Series), from 0; -1 where it has none.
+template <class Model> SLIDEWAY_HD constexpr int crank_place([[maybe_unused]] Series series) {
+    if constexpr (requires { Model::state_of_series(0); }) {
+        return Model::state_of_series(static_cast<int>(series));
+    } else {
+        return -1;
+    }
+}
+template <class Model> inline constexpr bool HasCrankState = crank_place<Model>(Series::crank_angle) >= 0;
+
 /// Writes the time series of a pack's members into the block's memory.
 template <class Model> class Sampler {
 public:
@@ -35,9 +45,10 @@ public:
 
     /// @param report read only where a series beyond the state is selected.
     template <class Real>
-    SLIDEWAY_HD void write(int index, std::size_t member, std::size_t sample, Real const* state, typename Model::template Report<Real> const& report,
-                           Model const& model) const {
+    SLIDEWAY_HD void write(int index, std::size_t member, std::size_t sample, Real const& time, Real const* state,
+                           typename Model::template Report<Real> const& report, Model const& model) const {
         SLIDEWAY_EXPECT(member < block_.members && sample < block_.samples);
+        if (block_.by_turns) block_.sample_clock[member * block_.samples + sample] = lane(time, index);
         std::size_t row = 0;
         for (int i = 0; i < Model::series; ++i) {
             if (!((block_.series >> i) & 1u)) continue;
@@ -55,6 +66,7 @@ public:
 
     /// Marks the samples that a failed member never reached.
     SLIDEWAY_HD void fill_missing(std::size_t member, std::size_t from) const {
+        for (std::size_t i = from; block_.by_turns && i < block_.samples; ++i) block_.sample_clock[member * block_.samples + i] = not_a_number;
         for (std::size_t row = 0; row < selected_; ++row) {
             auto* const values = block_.series_values + (row * block_.members + member) * block_.samples;
             for (std::size_t i = from; i < block_.samples; ++i) values[i] = not_a_number;

@@ -89,8 +89,8 @@ nb::object array_of(Result const& result, MemoryFile const& file, DataFile::Vari
 
 /// Whether a variable says where the values of others lie, and is the same in all runs of the same form.
 bool is_coordinate(DataFile::Variable const& variable) {
-    if (variable.type == DataFile::Type::text || variable.name == "time") return true;
-    return variable.dimensions.size() == 1 && variable.dimensions.front() == variable.name;
+    if (variable.type == DataFile::Type::text) return true;
+    return variable.dimensions.size() == 1 && (variable.dimensions.front() == variable.name || variable.dimensions.front() == "sample");
 }
 
 /// Of two results of one number the variables differ in values alone, and those of the coordinates are the same.

@@ -286,7 +286,7 @@ def _warn(name: str, why: str) -> None:
 
 
 def labelled(dataset: xr.Dataset) -> xr.Dataset:
-    """Names of a dimension's entries become its labels, samples are found by time, sections know their member."""
+    """Names of a dimension's entries become its labels, samples are found by time (or angle), sections know their member."""
     for name in [str(v) for v in dataset.variables]:
         stem = name.removesuffix("_name")
         if stem != name and dataset[name].dims == (stem,):
@@ -296,6 +296,8 @@ def labelled(dataset: xr.Dataset) -> xr.Dataset:
         dataset = dataset.set_coords("member_label")
     if "time" in dataset and dataset["time"].dims == ("sample",):
         dataset = dataset.set_coords("time").set_xindex("time")
+    if "turned" in dataset:
+        dataset = dataset.set_coords([name for name in ("turned", "time") if name in dataset]).set_xindex("turned")
     if "section_count" in dataset and "member" in dataset.coords:
         owners = np.repeat(dataset["member"].values, dataset["section_count"].values)
         attributes = {"units": "1", "long_name": "member of the section"}

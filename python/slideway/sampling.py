@@ -40,6 +40,13 @@ def unexplained(time: NDArray[np.float64], values: NDArray[np.float64], rates: N
     return float(np.median(miss / (size + 1e-3 * np.ptp(values) + np.finfo(float).tiny)))
 
 
+def sample_axis(result: xr.Dataset) -> tuple[NDArray[np.float64], str]:
+    """Where the samples of all members lie, and the unit: times in s, or of a crank that turns freely and is sampled by angle its turns."""
+    if "turned" in result.coords:
+        return np.asarray(result["turned"].values) / (2 * np.pi), "turns"
+    return np.asarray(result["time"].values), "s"
+
+
 def too_coarse(result: xr.Dataset, members: Sequence[int], name: str = "y") -> bool:
     """Whether the samples of a series are far coarser than the contacts that shape it, for any of these members.
 
@@ -48,20 +55,22 @@ def too_coarse(result: xr.Dataset, members: Sequence[int], name: str = "y") -> b
     """
     if name in _smooth:
         return False
-    time = result["time"].values if "time" in result else np.array([])
+    time = result["time"] if "time" in result else xr.DataArray(np.array([]), dims="sample")
     for state in {"y", name} & _rates.keys():
         if {state, _rates[state]} <= set(result.data_vars) and "sample" in result[state].dims:
             rows = (result[which].sel(member=list(members)).values for which in (state, _rates[state]))
-            if any(unexplained(time, values, rates) > _most for values, rates in zip(*rows, strict=True)):
+            times = time.sel(member=list(members)).values if "member" in time.dims else [time.values] * len(members)
+            if any(unexplained(*row) > _most for row in zip(times, *rows, strict=True)):
                 return True
     return False
 
 
-def coarse_words(time: NDArray[np.float64]) -> str:
+def coarse_words(result: xr.Dataset) -> str:
     """What a reader has to know of samples that are too coarse, in two short lines of a legend.
 
-    >>> import numpy as np
-    >>> coarse_words(np.array([0.0, 0.01, 0.02]))
+    >>> coarse_words(xr.Dataset(coords={"time": ("sample", [0.0, 0.01, 0.02])}))
     'samples every 10 ms,\\nfar coarser than contacts'
     """
-    return f"samples every {1e3 * float(np.median(np.diff(time))):.3g} ms,\nfar coarser than contacts"
+    places, unit = sample_axis(result)
+    step = float(np.median(np.diff(places)))
+    return f"samples every {f'{1e3 * step:.3g} ms' if unit == 's' else f'{360 * step:.3g}°'},\nfar coarser than contacts"

@@ -50,6 +50,8 @@ def even_step(time: np.ndarray) -> float:
     >>> even_step(np.array([0.0, 0.5, 1.0]))
     0.5
     """
+    if time.ndim > 1:
+        raise SlidewayError("the samples are at equal angles of the crank; a spectrum needs them evenly spaced in time, by study.duration and study.samples")
     if time.size < 2:
         raise SlidewayError(f"{time.size} samples have no spacing; store more with study.samples")
     step = float(time[-1] - time[0]) / (time.size - 1)

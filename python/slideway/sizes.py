@@ -102,7 +102,7 @@ def with_labels(file: netCDF4.Dataset, names: Sequence[str]) -> frozenset[str]:
             raise SlidewayError(f'there is no variable "{name}" in this result; it has {arguments.shortened(there, 300)}')
     dimensions = {dimension for name in names for dimension in variables[name].dimensions}
     labels = {label for dimension in dimensions for label in (dimension, f"{dimension}_name")}
-    labels |= {"time"} if "sample" in dimensions else set()
+    labels |= {"time", "turned"} & set(variables) if "sample" in dimensions else set()
     labels |= {"section_count", "member"} if "section" in dimensions else set()
     return frozenset(names) | labels
 

@@ -61,7 +61,8 @@ def series(result: xr.Dataset, *names: str) -> pd.DataFrame:
         names: of series; left out: all.
 
     Returns:
-        A pandas DataFrame with the index ``member``, ``time``. ``frame.attrs["units"]`` has the units.
+        A pandas DataFrame with the index ``member``, ``time``. ``frame.attrs["units"]`` has the units. Of samples at equal angles of a crank
+        that turns freely the index is ``member``, ``turned`` [rad], and ``time`` is the first column.
 
     Raises:
         SlidewayError: there are no time series in this result, or none of this name.
@@ -82,7 +83,9 @@ def series(result: xr.Dataset, *names: str) -> pd.DataFrame:
         if arguments.text(name, "the name of a series") not in there:
             raise SlidewayError(f'there is no series "{name}" in this result; it has {", ".join(there)}')
     wanted = list(names) or there
-    index = pd.MultiIndex.from_product([numbers(whole), whole["time"].values], names=["member", "time"])
+    place = "turned" if "turned" in whole.coords else "time"
+    wanted = ["time"] * (place == "turned") + wanted
+    index = pd.MultiIndex.from_product([numbers(whole), whole[place].values], names=["member", place])
     frame = pd.DataFrame({name: whole[name].values.ravel() for name in wanted}, index=index)
     frame.attrs["units"] = {name: whole[name].attrs["units"] for name in wanted if whole[name].attrs.get("units", "1") != "1"}
     return frame

@@ -138,7 +138,7 @@ def across(result: xr.Dataset, members: Sequence[int]) -> tuple[Array, Array] | 
     ys, zs = rows["y"].values, rows["z"].values
     if not may_be_misaligned(result):
         return ys, zs
-    time = result["time"].values
+    time = rows["time"].values
     # What members share is read once: reading a scene takes longer than turning a series.
     own = any(key.startswith((*_places, "mechanism.")) for key in varied(result))
     common = None if own else scene(result)
@@ -146,7 +146,7 @@ def across(result: xr.Dataset, members: Sequence[int]) -> tuple[Array, Array] | 
     for k, (number, y, z) in enumerate(zip(members, ys, zs, strict=True)):
         resolved = scene(result, number) if common is None else common
         crank = rows["crank_angle"].values[k] if "crank_angle" in rows else None
-        x = rows["x"].values[k] if "x" in rows else along(resolved, time, y, z, crank)
+        x = rows["x"].values[k] if "x" in rows else along(resolved, time[k] if time.ndim > 1 else time, y, z, crank)
         there = place(resolved, x, y, z)
         if there is None:
             return None

@@ -138,7 +138,7 @@ TEST_F(ResultFile, NamesUnitsAndLabels) {
         if (variable.name == "status") {
             EXPECT_EQ(file.text(variable.id, "flag_meanings"),
                       "not_run finished step_too_small max_steps nonfinite geometry contact_domain invalid_inputs "
-                      "unstable");
+                      "unstable out_of_time");
         }
         if (variable.name == "mode_class_name") {
             std::vector<char> text(variable.size());

@@ -19,6 +19,7 @@ struct EnsembleResult {
     std::vector<std::array<double, most_states>> states;  // at the end; as many numbers as the mechanism has
     std::vector<std::array<double, quantity_columns>> quantities;
     std::vector<double> series;  // [series][member][sample]
+    std::vector<double> clock;   // [member][sample], by turns
     std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
     double value(std::size_t member, Quantity q, int column = 0) const {
         return quantities[member][static_cast<std::size_t>(quantity_column(q) + column)];
@@ -59,6 +60,7 @@ struct RunOptions {
     Selection series = 0;
     std::vector<double> sample_times;
     std::vector<std::uint32_t> order;  // in which the block takes its members; empty: as they stand
+    double turns = 0;                  // by turns: what cranks turn until the end [rad]; sample times are angles
 };
 
 inline EnsembleResult run(Isa isa, RunOptions const& options, std::vector<Inputs> const& members) {
@@ -85,6 +87,11 @@ inline EnsembleResult run(Isa isa, RunOptions const& options, std::vector<Inputs
     block.final_states = states.data();
     block.quantity_values = n == 0 ? nullptr : r.quantities[0].data();
     block.series_values = r.series.data();
+    std::vector<MemberClock> const clocks(n, {.end = options.settings.end_time, .turns = options.turns});
+    if (options.turns > 0) {
+        r.clock.assign(n * options.sample_times.size(), -1.0);
+        block.by_turns = true, block.clocks = clocks.data(), block.sample_clock = r.clock.data();
+    }
     find_instance(isa, options.parts).run(block);
     for (std::size_t i = 0; i < n; ++i) std::copy_n(&states[i * width], width, r.states[i].begin());
     r.lane_steps_executed = block.lane_steps_executed;

@@ -53,7 +53,7 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
             ax.plot(factor * row_z, factor * row_y, color=colour, alpha=0.8, label=f"member {number}" if len(members) > 1 else None, **style)
             ax.plot(factor * row_z[:1], factor * row_y[:1], "o", ms=4, color=colour)
         if coarse:
-            ax.plot([], [], " ", label=coarse_words(result["time"].values))
+            ax.plot([], [], " ", label=coarse_words(result))
     else:
         there = np.isfinite(ys) & np.isfinite(zs)
         image = ax.hist2d(factor * zs[there], factor * ys[there], bins=120, cmap="viridis_r", norm=LogNorm())[3]

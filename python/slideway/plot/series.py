@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from ..errors import SlidewayError
 from ..ideal import ideal
 from ..palette import grey
-from ..sampling import coarse_words, too_coarse
+from ..sampling import coarse_words, sample_axis, too_coarse
 from ..scenes import scene
 from ..signals import running_integral
 from ..way import across, mean_clearance, may_be_misaligned
@@ -40,7 +40,7 @@ def time_series(
     """
     data = series_of(result, name)
     members = chosen(result, member)
-    time = result["time"].values
+    time, time_unit = sample_axis(result)
     rows = np.array(data.sel(member=members).values)
     background = ideal(scene(result, members[0] if len(members) == 1 else None), name, time)
     words = words_of(name)
@@ -57,7 +57,7 @@ def time_series(
             row -= background if own is None else own
         background, words = None, f"{words} − ideal"
     factor, unit = scaled(str(data.attrs.get("units", "1")), rows)
-    second, time_unit = scaled("s", time)
+    second, time_unit = scaled("s", time) if time_unit == "s" else (1.0, "turns")
     ax = axis(ax)
     if background is not None:
         ax.plot(second * time, factor * background, color=grey, lw=2.5, alpha=0.6, zorder=1,
@@ -66,9 +66,9 @@ def time_series(
     if clearance is not None:
         for end, words_of_line in ((clearance, "clearance"), (-clearance, None)):
             ax.axhline(factor * end, color=grey, lw=1, ls=":", label=words_of_line, zorder=1)
-    coarse = coarse_words(time) if too_coarse(result, members, name) else None
+    coarse = coarse_words(result) if too_coarse(result, members, name) else None
     draw_members(ax, second * time, factor * rows, members, failures(result, members), coarse)
-    return finish(ax, label("time", time_unit), label(words, unit))
+    return finish(ax, _axis_label(time_unit), label(words, unit))
 
 
 @of_result
@@ -87,15 +87,20 @@ def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: 
     """
     data = series_of(result, name)
     members = chosen(result, member)
-    time = result["time"].values
-    rows = running_integral(np.abs(data.sel(member=members).values), time)
+    time, time_unit = sample_axis(result)
+    own = result["time"].sel(member=members) if "member" in result["time"].dims else result["time"]
+    rows = running_integral(np.abs(data.sel(member=members).values), own.values)
     units = str(data.attrs.get("units", "1"))
     factor, unit = scaled({"m s-2": "m s-1", "m s-1": "m", "rad s-1": "rad"}.get(units, f"{units} s".removeprefix("1 ")), rows)
-    second, time_unit = scaled("s", time)
+    second, time_unit = scaled("s", time) if time_unit == "s" else (1.0, "turns")
     ax = axis(ax)
     draw_members(ax, second * time, factor * rows, members, failures(result, members))
     ax.set_ylim(bottom=0)
-    return finish(ax, label("time", time_unit), label(f"∫|{words_of(name)}| dt", unit))
+    return finish(ax, _axis_label(time_unit), label(f"∫|{words_of(name)}| dt", unit))
+
+
+def _axis_label(unit: str) -> str:
+    return "turns of the crank" if unit == "turns" else label("time", unit)
 
 
 def _clearance(result: xr.Dataset, members: list[int], name: str) -> float | None:

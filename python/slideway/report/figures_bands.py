@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
+from slideway.sampling import sample_axis
 from slideway.way import may_be_misaligned
 
 from .figures_series import BAND_MEMBERS, COUNTS, series_names
@@ -32,11 +33,11 @@ def bands(result: xr.Dataset) -> Figure | None:
         factor, named = scaled(float(np.nanmax(np.abs(curves))), str(thin[name].attrs.get("units", "1")))
         low, quarter, middle, three, high = curves * factor
         title = name.replace("_", " ") + ("" if named == "1" else f" [{text(unit_words(named))}]")
-        time = thin["time"].values
+        time, unit = sample_axis(thin)
         data = band(time, low, high, "5 to 95 %", "@c1/0.18") + band(time, quarter, three, "25 to 75 %", "@c1/0.35")
         data.append(line(time, middle, "median", "@c1", width=2))
-        variants.append(Variant(name, data, rows([title], "time [s]")))
-    caption = f"At each time, of the {counted(thin.sizes['member'], 'member')} that got there."
+        variants.append(Variant(name, data, rows([title], "time [s]" if unit == "s" else "turns of the crank")))
+    caption = f"At each {'time' if 'turned' not in result.coords else 'angle'}, of the {counted(thin.sizes['member'], 'member')} that got there."
     if step > 1:
         caption += f" Every {step}th sample."
     if may_be_misaligned(result):

@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from slideway.ideal import rod_reach
-from slideway.sampling import too_coarse
+from slideway.sampling import sample_axis, too_coarse
 from slideway.way import may_be_misaligned
 
 from .contact import mode_classes
@@ -123,7 +123,7 @@ def _walls(pose: Poses) -> list[dict[str, object]]:
 
 def _series_caption(result: xr.Dataset, name: str) -> str:
     samples = result.sizes["sample"]
-    caption = f"{counted(samples, 'sample')}, every {number(_spacing(result))} s."
+    caption = f"{counted(samples, 'sample')}, every {_spacing(result)}."
     if too_coarse(result, list(chosen(result))):
         caption += " That is far coarser than the contacts: samples are points, for a line between them would show what never was."
     if name == "series":
@@ -135,9 +135,10 @@ def _series_caption(result: xr.Dataset, name: str) -> str:
     return caption
 
 
-def _spacing(result: xr.Dataset) -> float:
-    time = result["time"].values
-    return float((time[-1] - time[0]) / max(len(time) - 1, 1))
+def _spacing(result: xr.Dataset) -> str:
+    places, unit = sample_axis(result)
+    step = float((places[-1] - places[0]) / max(len(places) - 1, 1))
+    return f"{number(step)} s" if unit == "s" else f"{number(360 * step)} degrees that the crank turns"
 
 
 def orbit(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:

@@ -22,6 +22,7 @@ MEANINGS = {
     "contact_domain": "a line contact was pressed deeper than its law holds for (δ ≤ l²/R)",
     "invalid_inputs": "the values drawn for the member cannot be used; it was not integrated",
     "unstable": "reached the end time, but its energy audit says that the method left its stable range; use smaller tolerances",
+    "out_of_time": "its crank had not turned as far as it was to when study.time_limit was over; give it longer",
 }
 MOST_NAMED = 20
 

@@ -80,11 +80,53 @@ TEST_F(SceneDrives, RefuseWhatTheirKindHasNot) {
     EXPECT_EQ(error("free_slider", "[drive]\nkind = \"profile\"\n"), "drive has no meaning for kind = \"free_slider\"; remove it");
     EXPECT_EQ(error("scotch_yoke", "[drive]\nkind = \"torque\"\ntorque = 1\n"),
               "drive.inertia is 0 kg m2 (nothing else turns at a dead centre); use a value > 0");
-    EXPECT_NE(error("slider_crank", "[drive]\nkind = \"torque\"\ntorque = 1\n", "[study]\nrevolutions = 2\n"), "");
     EXPECT_EQ(scene("slider_crank", "crank_inertia = 1e-3\n[drive]\nkind = \"free\"\n").inputs.crank_inertia, 1e-3);
     EXPECT_EQ(error("slider_crank", "crank_inertia = 1e-3\n"), "mechanism.crank_inertia has no meaning for kind = \"slider_crank\"; remove it");
     EXPECT_EQ(error("carriage", "", "[load.a]\nforce_x = 1\ntable = \"drive.csv\"\nover = \"crank_speed\"\ncolumn = \"f\"\n[study]\nduration = 1\n"),
               "load.a.over is \"crank_speed\" (a carriage has no crank); use time, x or vx");
+}
+
+TEST_F(SceneDrives, ThatTurnFreelyGoByRevolutionsWithinATime) {
+    std::string const motor = "[drive]\nkind = \"torque\"\ntorque = 1\n", limit = "time_limit = \"20 s\"\n";
+    Scene const by_turns = scene("slider_crank", motor, "[study]\nrevolutions = 2.5\nsamples_per_revolution = 8\n" + limit);
+    EXPECT_TRUE(by_turns.goes_by_turns());
+    EXPECT_EQ(by_turns.integrator.end_time, 20);
+    ASSERT_EQ(by_turns.sample_times.size(), 21u);
+    EXPECT_DOUBLE_EQ(by_turns.sample_times[1], std::numbers::pi / 4);
+    EXPECT_DOUBLE_EQ(by_turns.sample_times.back(), 5 * std::numbers::pi);
+    std::string const resolved = resolved_toml(by_turns);
+    EXPECT_NE(resolved.find("\nrevolutions = 2.5\ntime_limit = 20.0  # s\n"), resolved.npos) << resolved;
+    Scene const again = parse_scene(resolved, "again.toml");
+    EXPECT_EQ(resolved_toml(again), resolved);
+    EXPECT_EQ(again.sample_times, by_turns.sample_times);
+    EXPECT_EQ(scene("slider_crank", motor, "[study]\n" + limit).chaos.span, (Span{1, true}));
+    EXPECT_FALSE(scene("slider_crank", motor).goes_by_turns());
+    for (std::string const kind : {"poincare", "sweep\"\nparameter = \"drive.torque\"\nvalues = [1, 2]\nphase = \"90 deg", "lyapunov"}) {
+        Scene const orbits = scene("slider_crank", motor, "[study]\nkind = \"" + kind + "\"\nrevolutions = 3\n" + limit);
+        EXPECT_TRUE(orbits.goes_by_turns());
+        EXPECT_TRUE(orbits.chaos.transient.revolutions);
+        EXPECT_EQ(resolved_toml(parse_scene(resolved_toml(orbits), "again.toml")), resolved_toml(orbits));
+    }
+}
+
+TEST_F(SceneDrives, ThatTurnFreelyNeedATimeForTheirRevolutions) {
+    std::string const motor = "[drive]\nkind = \"torque\"\ntorque = 1\n", missing = "study.time_limit is missing (a crank that turns freely may never turn so far); "
+                                                                                "add time_limit = \"60 s\"";
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nrevolutions = 2\n"), missing);
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nkind = \"poincare\"\n"), missing);
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nkind = \"sweep\"\nparameter = \"drive.torque\"\nvalues = [1, 2]\n"), missing);
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nkind = \"sweep\"\nparameter = \"mechanism.crank_speed\"\nvalues = [1, 2]\ntime_limit = 9\nstart = \"continue\"\n"),
+              "study.start is \"continue\" (mechanism.crank_speed is where a member starts, and columns start where the one before ended); use start = \"fresh\", "
+              "or another parameter");
+    EXPECT_EQ(error("slider_crank", "", "[study]\nrevolutions = 2\ntime_limit = 3\n"),
+              "study.time_limit is 3 (revolutions of the drive last as long as they do); remove it");
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nduration = 2\ntime_limit = 3\n"),
+              "study.time_limit is 3 (study.duration ends members before); remove one of the two");
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nkind = \"lyapunov\"\nTtr = 1\ntime_limit = 3\n"),
+              "study.Ttr is 1 (with study.time_limit revolutions are counted); use study.transient_revolutions");
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nkind = \"lyapunov\"\ndt = 1\ntime_limit = 3\n"),
+              "study.dt is 1 (with study.time_limit revolutions are counted); use study.rescalings_per_revolution");
+    EXPECT_EQ(error("slider_crank", motor, "[study]\nrevolutions = 2\ntime_limit = 0\n"), "study.time_limit is 0 s (out of range for the time limit); use a value > 0 s and <= 1000000000 s");
 }
 
 TEST_F(SceneDrives, OnProfilesTurnByWhatTheirTableSays) {

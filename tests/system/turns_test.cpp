@@ -1,0 +1,141 @@
+// Studies by the revolutions of cranks that turn freely, run through the program, and what their files hold.
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tests/system/results.hpp"
+
+namespace slideway::testing::turns_test {
+namespace {
+
+using std::numbers::pi;
+
+/// Of a yoke on a motor, and a flywheel.
+std::string scene(std::string const& study, std::string const& drive = "torque = \"0.4 N m\"\nno_load_speed = \"25 rad/s\"\n") {
+    return fmt::format(
+        "schema = 1\n[mechanism]\nkind = \"scotch_yoke\"\ncrank_speed = \"9 rad/s\"\nstart_angle = \"40 deg\"\n"
+        "[drive]\nkind = \"torque\"\ninertia = 0.004\n{}[contact]\nlaw = \"conservative\"\nrestitution = 0.6\n[friction]\n"
+        "[study]\nmembers = 24\ntime_limit = \"20 s\"\nverify = 0\n{}\n"
+        "[study.vary]\n\"initial.y\" = {{ dist = \"unif\", low = \"-0.09 mm\", high = \"0.09 mm\" }}\n", drive, study);
+}
+
+class ByTurns : public ProgramWithResults {
+protected:
+    ResultReader results_of(std::string const& text, std::vector<std::string> more = {}) const {
+        write("s.toml", text);
+        std::vector<std::string> words{"run", "s.toml", "-o", "s.nc", "--force", "--no-progress"};
+        words.insert(words.end(), more.begin(), more.end());
+        Outcome const outcome = run(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return results("s.nc");
+    }
+};
+
+TEST_F(ByTurns, FilesHaveAnglesOfSamplesAndTimesOfMembers) {
+    ResultReader const file = results_of(scene("revolutions = 1.5\nsamples_per_revolution = 20\nquantities = [\"drive_work\"]"));
+    auto const turned = file.values("turned"), time = file.values("time"), angle = file.values("crank_angle"), end = file.values("end_time"),
+               last = file.values("final_crank_angle");
+    ASSERT_EQ(turned.size(), 31u);
+    EXPECT_EQ(file.unit("turned"), "rad");
+    EXPECT_EQ(file.shape("time"), (std::vector<std::size_t>{24, 31}));
+    for (std::size_t i = 0; i < 24; ++i) {
+        EXPECT_NEAR(last[i], pi * (40.0 / 180 + 3), 1e-11) << i;
+        EXPECT_EQ(time[31 * i + 30], end[i]);
+        EXPECT_EQ(time[31 * i], 0);
+        for (std::size_t k = 0; k < 31; ++k) EXPECT_NEAR(angle[31 * i + k], pi * (40.0 / 180 + 0.1 * static_cast<double>(k)), 1e-10) << i << ' ' << k;
+    }
+    EXPECT_NE(end[0], end[1]);
+    ASSERT_EQ(run({"export", "s.nc", "-o", "o.csv", "--series", "y"}).code, 0);
+    std::string const table = file_text(path("o.csv"));
+    EXPECT_EQ(table.substr(0, table.find('\n')), "member,turned [rad],time [s],y [m]");
+    expect_refusal(2, "s.nc: its samples are at equal angles, not at equal times; run the scene with study.duration and study.samples", {"stats", "s.nc", "--variable", "y"});
+    Outcome const probed = run({"probe", "s.nc", "--member", "3", "--time", fmt::format("{:.17g}", time[31 * 3 + 12])});
+    EXPECT_EQ(probed.code, 0) << probed.err;
+}
+
+TEST_F(ByTurns, ResumedFilesAreThoseOfOneRun) {
+    std::string const text = scene("revolutions = 0.75\nsamples_per_revolution = 16\nquantities = [\"energy_residual\"]");
+    std::string const whole = results_of(text).attribute("payload_hash");
+    ASSERT_EQ(run({"run", "s.toml", "-o", "p.nc", "--no-progress", "--block-members", "8", "--shard", "1/1"}).code, 0);
+    ASSERT_TRUE(std::filesystem::remove(path("p.nc.shards/members-0000000008.nc")));
+    ASSERT_EQ(run({"run", "s.toml", "-o", "p.nc", "--quiet", "--resume"}).code, 0);
+    EXPECT_EQ(results("p.nc").attribute("payload_hash"), whole);
+    EXPECT_EQ(results_of(text, {"--isa", "scalar", "--threads", "1"}).attribute("payload_hash"), whole);
+}
+
+TEST_F(ByTurns, MembersThatAreLateAreCounted) {
+    write("s.toml", scene("revolutions = 1.5\nquantities = [\"drive_work\"]"));
+    Outcome const outcome = run({"run", "s.toml", "-o", "s.nc", "--no-progress", "--set", "drive.torque=0.01", "study.time_limit=0.3", "--max-failures", "100%"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("The cranks of 24 members had not turned as far as study.revolutions after study.time_limit = 0.3 s"), std::string::npos) << outcome.out;
+    for (double const status : results("s.nc").values("status")) EXPECT_EQ(status, 8);
+    for (double const time : results("s.nc").values("end_time")) EXPECT_EQ(time, 0.3);
+}
+
+TEST_F(ByTurns, SectionsLieAtTheirPhaseWhicheverWayTheCrankTurns) {
+    for (double const way : {1.0, -1.0}) {
+        std::string const drive = fmt::format("torque = {}\nno_load_speed = \"25 rad/s\"\n", 0.4 * way);
+        ResultReader const file = results_of(scene("kind = \"poincare\"\nphase = \"75 deg\"\ntransient_revolutions = 2\nrevolutions = 3", drive),
+                                             {"--set", fmt::format("mechanism.crank_speed={}", 9 * way)});
+        EXPECT_EQ(file.values("section_count"), std::vector<double>(24, 3));
+        auto const angle = file.values("section_crank_angle"), time = file.values("section_time");
+        double const first = way > 0 ? 75 : 75 - 360;
+        for (std::size_t k = 0; k < angle.size(); ++k) {
+            EXPECT_NEAR(angle[k], pi / 180 * (first + way * 360 * static_cast<double>(2 + k % 3)), 1e-11) << k;
+            if (k % 3 > 0) {
+                EXPECT_GT(time[k], time[k - 1]);
+            }
+        }
+    }
+}
+
+TEST_F(ByTurns, ASectionOnTheCrankAngleIsThatAtItsPhase) {
+    auto const orbits = [&](std::string const& section) {
+        return results_of(scene("kind = \"poincare\"\ntransient_revolutions = 1\nrevolutions = 3\n" + section));
+    };
+    ResultReader const phase = orbits("phase = \"75 deg\"");
+    auto const time = phase.values("section_time"), y = phase.values("section_y");
+    ResultReader const crossings = orbits("section = { on = \"crank_angle\", value = \"75 deg\" }");
+    auto const other_time = crossings.values("section_time"), other_y = crossings.values("section_y");
+    ASSERT_EQ(time.size(), other_time.size());
+    for (std::size_t k = 0; k < time.size(); ++k) {
+        EXPECT_NEAR(time[k], other_time[k], 1e-5) << k;
+        EXPECT_NEAR(y[k], other_y[k], 1e-8) << k;
+    }
+}
+
+TEST_F(ByTurns, AColumnOfASweepGoesOnWithTheSpeedOfTheOneBefore) {
+    std::string const study = "kind = \"sweep\"\nparameter = \"drive.torque\"\nphase = \"75 deg\"\ntransient_revolutions = 0\nexponents = 0\n";
+    ResultReader const longer = results_of(scene(study + "values = [0.4]\nrevolutions = 4\n"));
+    auto const speed = longer.values("section_crank_angular_velocity");
+    ResultReader const continued = results_of(scene(study + "values = [0.4, 0.4]\nrevolutions = 2\nstart = \"continue\"\n"));
+    auto const again = continued.values("section_crank_angular_velocity"), angle = continued.values("section_crank_angle");
+    ASSERT_EQ(again.size(), 96u);
+    for (std::size_t i = 0; i < 24; ++i) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_NEAR(again[2 * i + k], speed[4 * i + k], 1e-9 * speed[4 * i + k]) << i;
+            EXPECT_NEAR(again[48 + 2 * i + k], speed[4 * i + 2 + k], 1e-4 * speed[4 * i]) << i;
+            EXPECT_NEAR(angle[48 + 2 * i + k], pi / 180 * (75 + 360 * static_cast<double>(k + 1)), 1e-11) << i;
+        }
+    }
+}
+
+TEST_F(ByTurns, ExponentsOfAHugeFlywheelAreThoseOfADrivenCrank) {
+    // Contacts and damping take the slider's offsets, at a rate that the flywheel does not change; its own are neutral.
+    std::string const study = "kind = \"lyapunov\"\nexponents = 4\ntransient_revolutions = 1\nrevolutions = 4\nrescalings_per_revolution = 200\n";
+    ResultReader const free = results_of(scene(study, "torque = 1e-9\n"), {"--set", "drive.inertia=1e7", "study.members=4"});
+    auto const exponent = free.values("lyapunov_exponent"), per_turn = free.values("lyapunov_exponent_per_turn"), time = free.values("lyapunov_time");
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(time[i], 4 * 2 * pi / 9, 1e-6);
+        for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(per_turn[4 * i + j], exponent[4 * i + j] * time[i] / 4, 1e-9 * std::abs(per_turn[4 * i + j])) << i;
+        EXPECT_LT(std::abs(exponent[4 * i]), 1.0) << "a turn of the flywheel goes on";
+    }
+    EXPECT_EQ(free.values("rescalings"), std::vector<double>(4, 800));
+}
+
+}  // namespace
+}  // namespace slideway::testing::turns_test
