@@ -20,6 +20,7 @@ template <class Model> SLIDEWAY_HD void expect_whole(BlockOf<typename Model::Inp
     SLIDEWAY_EXPECT(block.samples == 0 || (block.sample_times != nullptr && (block.series == 0 || block.series_values != nullptr)));
     SLIDEWAY_EXPECT(stops.count == 0 || (block.clocks != nullptr && stops.section_every > 0 && stops.growth_every > 0));
     SLIDEWAY_EXPECT(stops.growth_lead <= stops.transient);
+    SLIDEWAY_EXPECT(!block.by_turns || (HasCrankState<Model> && block.clocks != nullptr && (block.samples == 0 || block.sample_clock != nullptr)));
     SLIDEWAY_EXPECT(shadows.count == 0 || (Model::has_shadows && shadows.count <= most_shadows && shadows.d0 > 0 && shadows.directions != nullptr));
     SLIDEWAY_EXPECT(crossings.room == 0 || (Model::has_crossings && !Model::has_shadows && stops.count == 0 && block.section_values != nullptr));
     SLIDEWAY_EXPECT(crossings.index >= 0 && crossings.index < (crossings.on == CrossingPlan::On::state ? Model::size : 8));

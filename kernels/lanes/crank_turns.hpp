@@ -47,8 +47,9 @@ public:
         Real const here = results.turned(s, c.y);
         if (at_samples) level_ = results.next_sample_times(c.sample, here, level_);
         Real const side = side_of(s, c.y), speed = side * c.rates[angle], acceleration = side * c.rates[rate], way = level_ - here;
-        Real const evenly = way / speed, after = way / fma(Real(0.5) * acceleration, evenly, speed);
-        auto const comes = (evenly > Real(0.0)) & (after > Real(0.0)) & (after < Real(1e300));
+        // ½ a τ² + v τ = way, without loss next to v = 0, where a crank begins or turns back.
+        Real const two(2.0), there = fma(two * acceleration, way, speed * speed), after = two * way / (speed + sqrt(max(there, Real(0.0))));
+        auto const comes = (there >= Real(0.0)) & (after > Real(0.0)) & (after < Real(1e300));
         return min(select(c.aim > c.t, c.aim, select(comes, c.t + after, s.constants.end)), s.constants.end);
     }
 

@@ -67,6 +67,19 @@ TEST_F(ByTurns, ResumedFilesAreThoseOfOneRun) {
     EXPECT_EQ(results_of(text, {"--isa", "scalar", "--threads", "1"}).attribute("payload_hash"), whole);
 }
 
+TEST_F(ByTurns, OrbitsHaveOneHashOnEveryInstructionSet) {
+    std::string const turns = "transient_revolutions = 1\nrevolutions = 2\n", exponents = "exponents = 2\nrescalings_per_revolution = 60\n";
+    for (std::string const& study : {"kind = \"lyapunov\"\n" + exponents, std::string("kind = \"poincare\"\nphase = \"10 deg\"\n"),
+                                     "kind = \"sweep\"\nparameter = \"drive.torque\"\nvalues = [0.3, -0.4]\n" + exponents}) {
+        for (std::vector<std::string> const& mechanism : {std::vector<std::string>{}, {"--set", "mechanism.kind=planar_slider_crank", "contact.law=rigid"}}) {
+            std::vector<std::string> scalar = mechanism;
+            scalar.insert(scalar.end(), {"--isa", "scalar", "--threads", "1"});
+            std::string const text = scene(turns + study), hash = results_of(text, mechanism).attribute("payload_hash");
+            EXPECT_EQ(results_of(text, scalar).attribute("payload_hash"), hash) << study;
+        }
+    }
+}
+
 TEST_F(ByTurns, MembersThatAreLateAreCounted) {
     write("s.toml", scene("revolutions = 1.5\nquantities = [\"drive_work\"]"));
     Outcome const outcome = run({"run", "s.toml", "-o", "s.nc", "--no-progress", "--set", "drive.torque=0.01", "study.time_limit=0.3", "--max-failures", "100%"});
