@@ -106,8 +106,8 @@ public:
     }
 
 private:
-    static constexpr int angle = HasCrankState<Model> ? crank_place<Model>(Series::crank_angle) : 0;
-    static constexpr int rate = HasCrankState<Model> ? crank_place<Model>(Series::crank_angular_velocity) : 0;
+    static constexpr int angle = crank_place<Model>(CrankState::angle);
+    static constexpr int rate = crank_place<Model>(CrankState::speed);
 
     /// 1 where the crank has turned forward, −1 where back; where it is at its start the way that it goes.
     SLIDEWAY_FN static Real side_of(Member const& s, Real const* state) {

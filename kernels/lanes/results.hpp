@@ -220,7 +220,7 @@ public:
 
 private:
     static constexpr double endless = 1e300;
-    static constexpr int crank = HasCrankState<Model> ? crank_place<Model>(Series::crank_angle) : 0;
+    static constexpr int crank = crank_place<Model>(CrankState::angle);
 
     /// By turns the end of the time is no end.
     template <class Real> SLIDEWAY_HD bool is_late(MemberState<Model, Real> const& s, int i) const {

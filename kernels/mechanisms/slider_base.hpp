@@ -72,7 +72,7 @@ SLIDEWAY_HD inline SliderParameters<double> parameters_without_rod(Inputs const&
 
 /// A slider with two numbers more behind its ten: a place and its rate, which no contact is stiff against.
 struct TwelveStateBase : SliderBase {
-    static constexpr int size = 12;
+    static constexpr int size = 12, crank_state[] = {10, 11};  // these are a crank's where the mechanism has one that turns freely
     template <class Real> using Linearisation = FreeSliderLinearisation<Real>;
 };
 

@@ -19,15 +19,13 @@ template <class Model> SLIDEWAY_HD constexpr int state_of_series([[maybe_unused]
     }
 }
 
-/// Where a model's state has angle and speed of a crank (Series), from 0; -1 where it has none.
-template <class Model> SLIDEWAY_HD constexpr int crank_place([[maybe_unused]] Series series) {
-    if constexpr (requires { Model::state_of_series(0); }) {
-        return Model::state_of_series(static_cast<int>(series));
-    } else {
-        return -1;
-    }
+/// Whether the state of a model may have angle and speed of a crank, and where it then has them: its crank_state.
+template <class Model> inline constexpr bool HasCrankState = requires { Model::crank_state[0]; };
+enum class CrankState { angle, speed };
+template <class Model> SLIDEWAY_HD constexpr int crank_place([[maybe_unused]] CrankState of) {
+    if constexpr (HasCrankState<Model>) return Model::crank_state[static_cast<int>(of)];
+    else return 0;
 }
-template <class Model> inline constexpr bool HasCrankState = crank_place<Model>(Series::crank_angle) >= 0;
 
 /// Writes the time series of a pack's members into the block's memory.
 template <class Model> class Sampler {
