@@ -278,6 +278,17 @@ TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[mechanism]\nkind = \"planar_slider_crank\"\n", "way_ends");
 }
 
+TEST_F(SceneLoadFiles, AreFoundFromAFolderThatIsALink) {
+    auto const deep = folder_ / "a" / "b", link = folder_ / "link";
+    std::filesystem::create_directories(deep);
+    std::filesystem::create_directory_symlink(deep, link);
+    std::ofstream(folder_ / "a" / "p.csv") << "crank_angle, pressure\n0, 1\n180, 3\n360, 1\n";
+    std::ofstream(deep / "scene.toml") << "schema = 1\n[load.gas]\nforce_x = -1\ntable = \"../p.csv\"\nover = \"crank_angle\"\ncolumn = \"pressure\"\n";
+    Scene const through = read_scene((link / "scene.toml").string()), straight = read_scene((deep / "scene.toml").string());
+    EXPECT_EQ(through.tables.at(0).path, straight.tables.at(0).path);
+    EXPECT_EQ(through.tables.at(0).checksum, straight.tables.at(0).checksum);
+}
+
 TEST(SceneLoads, ElementsThatCannotBeAreOneLine) {
     struct Bad { char const *text, *words; };
     for (Bad const& bad : {
