@@ -13,7 +13,7 @@ enum class Status : signed char {
     contact_domain = 5,  // a line contact beyond its domain δ̄ ≤ l²/R_e; rigid contacts that have jammed
     invalid_inputs = 6,  // the inputs drawn for the member cannot be used; it was not integrated
     unstable = 7,        // reached the end time, but its energy audit says that the method left its stable range
-    out_of_time = 8,     // its crank has not turned as far as it was to within study.duration
+    out_of_time = 8,     // its crank has not turned as far as it was to within study.time_limit
 };
 
 inline constexpr int status_count = 9;  // without not_run

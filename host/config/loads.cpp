@@ -163,11 +163,15 @@ Key const* SceneLoads::find_key(std::string_view name) const {
     return found == keys_.end() ? nullptr : &*found;
 }
 
+bool jumps_at_columns(LoadArgument over, LoadTable const& table) {
+    bool const once_a_turn = table.function->table().repeats && table.span < 3 * std::numbers::pi;
+    return over == LoadArgument::time || (over == LoadArgument::crank_angle && !once_a_turn);
+}
+
 std::string_view jumping_load(SceneLoads const* loads) {
     for (std::size_t i = 0; loads != nullptr && i < loads->rows().size(); ++i) {
         Load const& load = loads->load(i);
-        bool const once_a_turn = load.table.repeats && loads->rows()[i].table.span < 3 * std::numbers::pi;
-        if (load.over == LoadArgument::time || (load.over == LoadArgument::crank_angle && !once_a_turn)) return loads->rows()[i].name;
+        if (load.over != LoadArgument::nothing && jumps_at_columns(load.over, loads->rows()[i].table)) return loads->rows()[i].name;
     }
     return {};
 }

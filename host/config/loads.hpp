@@ -104,5 +104,7 @@ private:
 
 /// The first load whose table is over time, or over more than one turn of the crank: where a member begins, it begins anew.  "" where there is none.
 std::string_view jumping_load(SceneLoads const* loads);
+/// Whether a table over this is not the same where a column of a continued sweep begins, at time 0 in the first turn.
+bool jumps_at_columns(LoadArgument over, LoadTable const& table);
 
 }  // namespace slideway

@@ -113,7 +113,8 @@ RunLength run_length(Scene const& scene) {
     auto const at = [&](double period) { return chaos.transient.seconds(period) + chaos.span.seconds(period); };
     double const own = turn_length(scene);
     double const stops = chaos.exponents > 0 ? at(own) / chaos.dt.seconds(own) : chaos.section.is_phase() ? at(own) / own : 0;
-    if (scene.goes_by_turns()) return {scene.integrator.end_time, scene.integrator.end_time, std::ceil(stops)};
+    // Each angle is come to, tried again and gone on from.
+    if (scene.goes_by_turns()) return {scene.integrator.end_time, scene.integrator.end_time, 4 * std::ceil(stops)};
     return {at(own), std::max(at(own), at(drive_periods(scene).most)), std::ceil(stops)};
 }
 

@@ -122,7 +122,8 @@ ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_
     if (schedule_.by_turns) {
         // What lies between two angles counts as long as any other: as their mean.
         MemberRecord const& record = block.records[i];
-        double const turned = log.length * static_cast<double>(log.intervals()), pace = turned > 0 ? (record.time - record.growth_from) / turned : nan;
+        StopPlan const& stops = schedule_.stops;
+        double const turned = spacing * static_cast<double>(stops.count - 1 - stops.growth_from()), pace = turned > 0 ? (record.time - record.growth_from) / turned : nan;
         turn = 2 * std::numbers::pi * pace, spacing *= pace, log.length *= pace;
     }
     double const per_turn = turn / log.length;

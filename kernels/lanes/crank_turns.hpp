@@ -43,10 +43,10 @@ public:
     /// Time at which the next step ends at the latest.  @param at_samples whether those end steps too
     SLIDEWAY_HD Real landing(Member const& s, Results<Model> const& results, bool at_samples) {
         auto const& c = s.course;
-        level_ = min(s.constants.turns, results.next_stop(s));
-        Real const here = results.turned(s, c.y);
-        if (at_samples) level_ = results.next_sample_times(c.sample, here, level_);
-        Real const side = side_of(s, c.y), speed = side * c.rates[angle], acceleration = side * c.rates[rate], way = level_ - here;
+        at_samples_ = at_samples;
+        Real const side = side_of(s, c.y), here = results.turned(s, c.y);
+        find_level(s, results, side, here);
+        Real const speed = side * c.rates[angle], acceleration = side * c.rates[rate], way = level_ - here;
         // ½ a τ² + v τ = way, without loss next to v = 0, where a crank begins or turns back.
         Real const two(2.0), there = fma(two * acceleration, way, speed * speed), after = two * way / (speed + sqrt(max(there, Real(0.0))));
         auto const comes = (there >= Real(0.0)) & (after > Real(0.0)) & (after < Real(1e300));
@@ -55,9 +55,12 @@ public:
 
     /// Has steps that went beyond their angle try again.  @return those
     template <class Step> SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
+        auto const& s = step.pack.state;
         auto& c = step.pack.state.course;
         auto const& attempt = step.attempt;
-        auto const way = over(step.pack.state, attempt);
+        auto const way = over(s, attempt);
+        // A crank may have turned back through its start, where the next angle is another.
+        find_level(s, step.results, side_of(s, attempt.end), max(way.v0, Real(0.0)));
         Real const beyond = way.v1 - level_, speed = abs(attempt.end_rates[angle]);
         Real const tolerance = Real(8 * 2.220446049250313e-16) * fma(speed, c.t + attempt.step, abs(attempt.end[angle]));
         Mask<Real> const past = allowed.accepted & (beyond > tolerance);
@@ -72,7 +75,7 @@ public:
     }
 
     /// Lanes whose accepted step has come to a stop; to the end, once that has been counted.
-    SLIDEWAY_HD Mask<Real> at_stop(Mask<Real> accepted, Real next_stop) const { return accepted & reached_ & (level_ >= next_stop); }
+    SLIDEWAY_HD Mask<Real> at_stop(Mask<Real> accepted) const { return accepted & reached_ & (level_ >= stop_); }
     SLIDEWAY_HD Mask<Real> at_end(Mask<Real> accepted, Member const& s, std::size_t stops) const {
         Mask<Real> const last = (level_ >= s.constants.turns) | (s.course.stop >= Real(stops > 0 ? static_cast<double>(stops) : 1e300));
         return accepted & reached_ & last;
@@ -95,7 +98,7 @@ public:
                 Real const ahead = wanted - abs(state[angle] - pack.state.constants.start_angle), moved = share + ahead / way.slope(share);
                 share = select((moved >= Real(0.0)) & (moved <= Real(1.0)), moved, share);
             }
-            return select(wanted >= last, Real(1.0), share);
+            return select((wanted >= last) & (wanted > way.v0), Real(1.0), share);
         }
         SLIDEWAY_HD Real time_of(Real t, Real step, Real share, Real /*wanted*/) const { return select(share < Real(1.0), fma(share, step, t), t_end); }
     };
@@ -106,8 +109,15 @@ public:
     }
 
 private:
-    static constexpr int angle = crank_place<Model>(CrankState::angle);
-    static constexpr int rate = crank_place<Model>(CrankState::speed);
+    static constexpr int angle = crank_place<Model, 0>;
+    static constexpr int rate = crank_place<Model, 1>;
+
+    /// The angle that a step may go to from `here` on a side of the start.
+    SLIDEWAY_HD void find_level(Member const& s, Results<Model> const& results, Real side, Real here) {
+        stop_ = results.next_turn(s, side);
+        level_ = min(s.constants.turns, stop_);
+        if (at_samples_) level_ = results.next_sample_times(s.course.sample, here, level_);
+    }
 
     /// 1 where the crank has turned forward, −1 where back; where it is at its start the way that it goes.
     SLIDEWAY_FN static Real side_of(Member const& s, Real const* state) {
@@ -119,7 +129,8 @@ private:
         return {side * (s.course.y[angle] - start), of_step * s.course.rates[angle], side * (attempt.end[angle] - start), of_step * attempt.end_rates[angle]};
     }
 
-    Real level_;          // that the attempt may go to [rad]
+    bool at_samples_ = false;
+    Real stop_, level_;   // the next stop, and what the attempt may go to [rad]
     Mask<Real> reached_;  // lanes whose attempt has come there
 };
 

@@ -33,7 +33,7 @@ template <class Model> struct NewMember {
         r.constants.stop_period = clock.period;
         r.constants.turns = clock.turns;
         r.constants.first_back = clock.first_back;
-        r.constants.start_angle = c.y[crank_place<Model>(CrankState::angle)];
+        r.constants.start_angle = c.y[crank_place<Model, 0>];
         if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member);
         if constexpr (HasClocks<Model>) c.clocked = {0.0, c.h, 0.0, 0.0, 0.0};
         // A model without linearisation is left to the explicit pair.

@@ -23,12 +23,11 @@ public:
     template <class Real> SLIDEWAY_HD static Real turned(MemberState<Model, Real> const& s, Real const* state) {
         return abs(state[crank] - s.constants.start_angle);
     }
-    /// Time of every lane's next stop, or its angle by turns; infinity after the last.
-    template <class Real> SLIDEWAY_HD Real next_stop(MemberState<Model, Real> const& s) const {
-        auto const left = s.course.stop < Real(static_cast<double>(block_.stops.count));
-        Real first = s.constants.first_stop;
-        if (by_turns()) first = select(s.course.y[crank] < s.constants.start_angle, s.constants.first_back, first);
-        return select(left, fma(s.course.stop, s.constants.stop_period, first), Real(endless));
+    /// Time of every lane's next stop; infinity after the last.
+    template <class Real> SLIDEWAY_HD Real next_stop(MemberState<Model, Real> const& s) const { return next_stop(s, s.constants.first_stop); }
+    /// By turns its angle.  @param side that the crank is on, 1 or −1
+    template <class Real> SLIDEWAY_HD Real next_turn(MemberState<Model, Real> const& s, Real side) const {
+        return next_stop(s, select(side < Real(0.0), s.constants.first_back, s.constants.first_stop));
     }
     /// Lanes that have their transient behind them at a state, which crossings are recorded from.
     template <class Real> SLIDEWAY_HD Mask<Real> records_at(MemberState<Model, Real> const& s, Real t, Real const* state) const {
@@ -220,7 +219,12 @@ public:
 
 private:
     static constexpr double endless = 1e300;
-    static constexpr int crank = crank_place<Model>(CrankState::angle);
+
+    template <class Real> SLIDEWAY_HD Real next_stop(MemberState<Model, Real> const& s, Real first) const {
+        auto const left = s.course.stop < Real(static_cast<double>(block_.stops.count));
+        return select(left, fma(s.course.stop, s.constants.stop_period, first), Real(endless));
+    }
+    static constexpr int crank = crank_place<Model, 0>;
 
     /// By turns the end of the time is no end.
     template <class Real> SLIDEWAY_HD bool is_late(MemberState<Model, Real> const& s, int i) const {

@@ -220,8 +220,7 @@ private:
     /// Members that have landed at a stop: their section, and how their neighbours have departed.
     SLIDEWAY_HD void stop(Mask<Real> accepted, Mask<Real> landed) {
         auto& c = step_.pack.state.course;
-        Real const next = step_.results.next_stop(step_.pack.state);
-        auto const at = step_.results.by_turns() ? turns_.at_stop(accepted, next) : landed & (c.t >= next);
+        auto const at = step_.results.by_turns() ? turns_.at_stop(accepted) : landed & (c.t >= step_.results.next_stop(step_.pack.state));
         if (none(at)) return;
         step_.results.take_section(step_.pack, at);
         step_.neighbours.stop(step_.pack, step_.results, at);

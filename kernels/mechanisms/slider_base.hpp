@@ -56,7 +56,7 @@ template <class Parameters> struct StateFunctions {
     void (*start)(Inputs const&, double*) = nullptr;
     int (*of_series)(int) = nullptr;
 
-    template <class Base> static constexpr StateFunctions of() { 
+    template <class Base> static constexpr StateFunctions of() {
         return {[](Parameters const& p, double* scale) { Base::scales(p, scale); }, &Base::initial_state, &Base::state_of_series};
     }
 };

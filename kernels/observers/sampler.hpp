@@ -19,13 +19,10 @@ template <class Model> SLIDEWAY_HD constexpr int state_of_series([[maybe_unused]
     }
 }
 
-/// Whether the state of a model may have angle and speed of a crank, and where it then has them: its crank_state.
+/// Whether the state of a model may have angle (0) and speed (1) of a crank, and where it then has them: its crank_state.
 template <class Model> inline constexpr bool HasCrankState = requires { Model::crank_state[0]; };
-enum class CrankState { angle, speed };
-template <class Model> SLIDEWAY_HD constexpr int crank_place([[maybe_unused]] CrankState of) {
-    if constexpr (HasCrankState<Model>) return Model::crank_state[static_cast<int>(of)];
-    else return 0;
-}
+template <class Model, int of> inline constexpr int crank_place = 0;
+template <class Model, int of> requires HasCrankState<Model> inline constexpr int crank_place<Model, of> = Model::crank_state[of];
 
 /// Writes the time series of a pack's members into the block's memory.
 template <class Model> class Sampler {

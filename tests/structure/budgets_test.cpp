@@ -38,17 +38,17 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 19'700u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'160u);
+    EXPECT_LE(Layer("kernels").lines(), 19'880u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'190u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'840u);
-    EXPECT_LE(Layer("host").lines(), 32'270u);
+    EXPECT_LE(Layer("host").lines(), 32'310u);
     EXPECT_LE(Layer("host/store").lines(), 4'570u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
-    EXPECT_LE(kernels.count(type).in_all, 395u);
+    EXPECT_LE(kernels.count(type).in_all, 401u);
     EXPECT_LE(Layer("host").count(type).in_all, 378u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 46u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";

@@ -106,6 +106,26 @@ TEST_F(ByTurns, SectionsLieAtTheirPhaseWhicheverWayTheCrankTurns) {
     }
 }
 
+TEST_F(ByTurns, ACrankThatComesBackThroughItsStartHasItsSections) {
+    // On both sides of the start the phase is another angle away: a hair behind it, and half a degree, from a crank that begins backward or turns round.
+    struct Way { char const* phase; double start, speed, torque; };
+    for (Way const& way : {Way{"0.698131 rad", 40, -9, -0.4}, Way{"9.9999 deg", 10, -9, -0.4}, Way{"9.5 deg", 10, 9, -0.3}}) {
+        SCOPED_TRACE(way.phase);
+        std::string const drive = fmt::format("torque = {}\nno_load_speed = \"25 rad/s\"\n", way.torque);
+        ResultReader const file = results_of(scene(fmt::format("kind = \"poincare\"\nphase = \"{}\"\ntransient_revolutions = 0\nrevolutions = 2", way.phase), drive),
+                                             {"--set", fmt::format("mechanism.crank_speed={}", way.speed), fmt::format("mechanism.start_angle={} deg", way.start)});
+        EXPECT_EQ(file.values("status"), std::vector<double>(24, 0));
+        EXPECT_EQ(file.values("section_count"), std::vector<double>(24, 2));
+        double const phase = way.start == 40 ? 0.698131 : pi / 180 * std::stod(way.phase);
+        for (double const angle : file.values("section_crank_angle")) EXPECT_NEAR(std::remainder(angle - phase, 2 * pi), 0, 1e-10);
+    }
+}
+
+TEST_F(ByTurns, ACrankAtRestHasItsFirstSampleAtItsStart) {
+    ResultReader const file = results_of(scene("revolutions = 1\nsamples_per_revolution = 4"), {"--set", "mechanism.crank_speed=0"});
+    for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(file.values("time")[5 * i], 0);
+}
+
 TEST_F(ByTurns, ASectionOnTheCrankAngleIsThatAtItsPhase) {
     auto const orbits = [&](std::string const& section) {
         return results_of(scene("kind = \"poincare\"\ntransient_revolutions = 1\nrevolutions = 3\n" + section));
