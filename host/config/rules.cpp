@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "host/config/drive.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
