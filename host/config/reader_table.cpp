@@ -221,19 +221,18 @@ TableFile read_table_file(Reading& reading, Node const& node) {
     fs::path const folder = fs::path(scene.path).parent_path();
     fs::path path = folder / given;  // as the system reads it: a folder may be a link
     std::error_code ignored;
-    auto const shown = [](fs::path const& of) { return shown_briefly(of.lexically_normal().string()); };
     if (fs::path(given).is_absolute() && !fs::exists(path, ignored) && fs::exists(folder / path.filename(), ignored)) {
         path = folder / path.filename();
-        reading.warn(fmt::format("{}: {} is not there any more; {} is read in its place", node.where, node.name, shown(path)));
+        reading.warn(fmt::format("{}: {} is not there any more; {} is read in its place", node.where, node.name, shown_briefly(path.string())));
     }
     if (fs::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
     InputText input = read_input(path.string(), largest);
     if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
     if (input.error != 0)
-        refuse(node, {fmt::format("{} cannot be read: {}", shown(path), input.why()), "check the path, from the scene's folder on"});
+        refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path.string()), input.why()), "check the path, from the scene's folder on"});
     std::uint64_t const checksum = fnv1a(input.text);
     fs::path const place = fs::canonical(path, ignored);
-    return scene.tables.emplace_back(TableFile{node.name, given, ignored ? fs::absolute(path).string() : place.string(), shown(path),
+    return scene.tables.emplace_back(TableFile{node.name, given, ignored ? fs::absolute(path).string() : place.string(), shown_briefly(path.string()),
                                                std::make_shared<std::string const>(std::move(input.text)), checksum});
 }
 

@@ -40,7 +40,7 @@ struct Layer {
 TEST(Budgets, OfLines) {
     EXPECT_LE(Layer("kernels").lines(), 19'880u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'190u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'840u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'850u);
     EXPECT_LE(Layer("host").lines(), 32'310u);
     EXPECT_LE(Layer("host/store").lines(), 4'570u);
 }

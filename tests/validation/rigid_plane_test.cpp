@@ -86,7 +86,7 @@ TEST(RigidPlane, ACrankOnAMotorMovesAsThePlanarOne) {
             auto const plane = moved(testing::rigid_planar_parts(friction > 0, false), in, 0.012);
             auto const space = moved(testing::rigid_joint_parts(friction > 0, false, Mechanism::slider_crank_motor), in, 0.012);
             // Friction has another lever, by the clearance.
-            for (std::size_t i = 0; i < plane.size(); ++i) EXPECT_NEAR(space[i], plane[i], friction > 0 ? 1e-6 : 1e-9) << "of " << i << " from " << angle << " with " << friction;
+            for (std::size_t i = 0; i < plane.size(); ++i) EXPECT_NEAR(space[i], plane[i], friction > 0 ? 1e-5 : 1e-9) << "of " << i << " from " << angle << " with " << friction;
             EXPECT_GT(std::abs(plane[1] - in.crank_speed), 1);
         }
     }

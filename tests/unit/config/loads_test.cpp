@@ -282,7 +282,7 @@ TEST_F(SceneLoadFiles, AreFoundFromAFolderThatIsALink) {
     auto const deep = folder_ / "a" / "b", link = folder_ / "link";
     std::filesystem::create_directories(deep);
     std::filesystem::create_directory_symlink(deep, link);
-    std::ofstream(folder_ / "a" / "p.csv") << "crank_angle, pressure\n0, 1\n180, 3\n360, 1\n";
+    std::ofstream(folder_ / "a" / "p.csv") << "crank_angle [deg], pressure\n0, 1\n180, 3\n360, 1\n";
     std::ofstream(deep / "scene.toml") << "schema = 1\n[load.gas]\nforce_x = -1\ntable = \"../p.csv\"\nover = \"crank_angle\"\ncolumn = \"pressure\"\n";
     Scene const through = read_scene((link / "scene.toml").string()), straight = read_scene((deep / "scene.toml").string());
     EXPECT_EQ(through.tables.at(0).path, straight.tables.at(0).path);
