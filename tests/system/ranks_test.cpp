@@ -82,9 +82,9 @@ TEST_F(SharedRun, IsPutTogetherFromTheJobsOfAnArray) {
 }
 
 TEST_F(SharedRun, EndsWithOneCodeAtEveryRank) {
-    // About one in six of these clearances is negative: too many failed members.
+    // About one in six of these masses is negative: too many failed members.
     ShellOutcome const outcome =
-        shell(mpirun(3) + run_text("--set 'study.vary.\"joint.clearance\"={dist=\"norm\",mean=3e-4,sd=3e-4}' --any-start"));
+        shell(mpirun(3) + run_text("--set 'study.vary.\"mechanism.slider_mass\"={dist=\"norm\",mean=0.2,sd=0.2}' --any-start"));
     EXPECT_EQ(outcome.code, 3) << outcome.err;
     auto const message = outcome.err.find("more than --max-failures");
     EXPECT_NE(message, std::string::npos) << outcome.err;
