@@ -17,10 +17,10 @@ Inputs inputs(MechanismInfo const& of) {
 }
 
 /// An impulse P changes (q', y', z') so that masses · change = what they feel of it.
-template <class Guide> void expect_momentum(double angle) {
+template <class Guide> void expect_momentum(double angle, double y) {
     SCOPED_TRACE(angle);
     auto const p = Guide::Base::parameters(inputs(Guide::info));
-    double const s[12] = {0.01, -0.02, 0.3, -0.1, 0, 0, 0, 0, 0, 0, angle, 30};
+    double const s[12] = {y, -0.02, 0.3, -0.1, 0, 0, 0, 0, 0, 0, angle, 30};
     auto faults = Faults<double>::none();
     typename Guide::template At<double> at(0, s, p, DrivePlan{.by = DriveBy::nothing}, faults);
     auto const centre = at.centre(p);
@@ -41,11 +41,11 @@ template <class Guide> void expect_momentum(double angle) {
 }
 
 TEST(GuidedCentre, OfAFreeCrankTakesImpulsesUpAtEveryAngle) {
-    // Dead centres and their next neighbours among them: there x' does not say what θ' is.
+    // Dead centres and their next neighbours among them: there x' does not say what θ' is.  They are at 0 and π of a slider on the crank's height.
     for (double const dead : {0.0, std::numbers::pi}) {
         for (double const off : {0.0, 1e-13, 1e-10, -1e-8, 1e-7, 1e-4, 0.5, -1.3}) {
-            expect_momentum<CrankAndRodOnMotor>(dead + off);
-            expect_momentum<YokeOnMotor>(dead + off);
+            for (double const y : {0.0, 0.01}) expect_momentum<CrankAndRodOnMotor>(dead + off, y);
+            expect_momentum<YokeOnMotor>(dead + off, 0.01);
         }
     }
 }
