@@ -7,7 +7,7 @@
 #include "kernels/integrate.hpp"
 #include "kernels/isa_real.hpp"
 #include "kernels/mechanisms/list.hpp"
-#include "kernels/mechanisms/probe.hpp"
+#include "kernels/lanes/probe.hpp"
 #include "kernels/models/shadowed.hpp"
 #include "kernels/rigid/joint_offset.hpp"
 #include "kernels/rigid/planar_slider_crank.hpp"
@@ -26,6 +26,8 @@ namespace {
 template <class Real, class Mechanism, class Base> constexpr GuideFunctions<Real> const* guide_functions() {
     if constexpr (!std::is_same_v<Base, SLIDEWAY_BASE> || std::is_same_v<Base, PlanarBase>) {
         return nullptr;
+    } else if constexpr (is_tangent<Real> && Mechanism::size > state_size) {
+        return nullptr;  // of what no drive prescribes there are no exponents
     } else {
         static_assert(requires { typename Mechanism::Guide; },
                       "a mechanism of the tree has rigid contacts: a SpatialSlider<Guide> from its guide, another from a model that model_of names");

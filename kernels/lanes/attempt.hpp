@@ -30,9 +30,9 @@ template <class Real> struct Allowance {
 };
 
 /// Lanes whose numbers are all finite.
-template <int size, class Real> SLIDEWAY_HD Mask<Real> is_finite(Real const (&a)[size], Real const (&b)[size]) {
+template <class Real> SLIDEWAY_HD Mask<Real> is_finite(Real const* a, Real const* b, int n) {
     Real sum(0.0);
-    for (int i = 0; i < size; ++i) sum = fma(a[i], Real(0.0), fma(b[i], Real(0.0), sum));
+    for (int i = 0; i < n; ++i) sum = fma(a[i], Real(0.0), fma(b[i], Real(0.0), sum));
     return sum == Real(0.0);
 }
 

@@ -71,7 +71,7 @@ private:
             if (plan.on == CrossingPlan::On::state) return rates[plan.index];
             Real const ahead = Real(1e-3) * step;
             Real moved[size];
-            for (int i = 0; i < size; ++i) moved[i] = fma(ahead, rates[i], state[i]);
+            for (int i = 0, n = pack.states(); i < n; ++i) moved[i] = fma(ahead, rates[i], state[i]);
             auto const steps = step > Real(0.0);
             return select(steps, (value(t + ahead, moved) - value_here) / select(steps, ahead, Real(1.0)), Real(0.0));
         }

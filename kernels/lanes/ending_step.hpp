@@ -20,7 +20,8 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         whole_ = to.step;
         share_ = Real(1.0);
-        for (int i = 0; i < size; ++i) {
+        states_ = pack.states();
+        for (int i = 0; i < states_; ++i) {
             numbers_.start[i] = from.y[i];
             numbers_.k[0][i] = from.rates[i];
         }
@@ -28,7 +29,7 @@ public:
         to.faults = Faults<Real>::none();
         if (from.needs.stages) integrals_.begin(pack, Real(1.0));
         Pair::each_stage([&](auto s) { stage<s>(pack, from, to); });
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < states_; ++i) {
             numbers_.end[i] = to.end[i];
             to.end_rates[i] = numbers_.k[Pair::stages - 1][i];
         }
@@ -51,12 +52,12 @@ public:
     /// The state at a share of the whole step.
     SLIDEWAY_FN void place(Real share, Real* state) const {
         auto const inside = share < Real(1.0);
-        for (int i = 0; i < size; ++i) state[i] = select(inside, numbers_.at(i, whole_, share), numbers_.end[i]);
+        for (int i = 0; i < states_; ++i) state[i] = select(inside, numbers_.at(i, whole_, share), numbers_.end[i]);
     }
 
     /// Error estimates of the components over the whole step.
     SLIDEWAY_HD void errors(Attempt<Model, Real> const&, Real* of_state) const {
-        for (int i = 0; i < size; ++i) of_state[i] = whole_ * Pair::error_slope(numbers_.k, i);
+        for (int i = 0; i < states_; ++i) of_state[i] = whole_ * Pair::error_slope(numbers_.k, i);
     }
 
     /// The state inside the step, at fraction θ of what is left of it.
@@ -72,7 +73,7 @@ private:
         constexpr typename Pair::Tableau w{};
         constexpr bool last = s + 1 == Pair::stages;
         Real* const at = last ? to.end : at_;
-        Pair::template stage_state<s>(from.y, numbers_.k, to.step, at);
+        Pair::template stage_state<s>(from.y, numbers_.k, to.step, at, states_);
         Real const t = fma(to.step, Real(w.c[s]), from.t);
         pack.tell_stages(!last);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
@@ -84,6 +85,7 @@ private:
     StepIntegrals<Pair, Model, Real> integrals_;  // if needs.stages
     Real whole_, share_;                          // the step as it was tried [s], and what is left of it
     Real at_[size];                               // where a stage evaluates the derivative
+    int states_ = size;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

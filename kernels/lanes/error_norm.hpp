@@ -12,6 +12,7 @@ template <class Stepper, class Model, class Real> struct ErrorNorm {
     /// Of the stiff method's errors what lasts meets the tolerance, the whole with its ringing `stiff_tolerance` at least.
     SLIDEWAY_HD static Real squared(Pack<Model, Real> const& pack, Stepper& stepper, IntegratorSettings const& settings,
                                     StepStart<Model, Real> const& from, Attempt<Model, Real> const& to) {
+        int const n = pack.states();
         if constexpr (Stepper::stiff) {
             stepper.filter_error(Real(settings.stiff_max_step));
             Real whole[size], lasting[size];
@@ -19,22 +20,22 @@ template <class Stepper, class Model, class Real> struct ErrorNorm {
             stepper.lasting_errors(whole, lasting);
             SquaredRatios<Real> sum;
             SLIDEWAY_UNROLL
-            for (int i = 0; i < size; ++i) {
+            for (int i = 0; i < n; ++i) {
                 sum.add(lasting[i], tolerance(pack, settings, from, to, i, 0.0));
                 sum.add(whole[i], tolerance(pack, settings, from, to, i, settings.stiff_tolerance));
             }
             add_audit(pack, settings, from, to, pack.audit_error, sum);
-            return sum.total() * Real(1.0 / size);
+            return sum.total() * Real(1.0 / n);
         } else {
             Real errors[size];
             stepper.errors(to, errors);
             Real const fine = sum_of(pack, settings, from, to, errors, pack.audit_error);
-            if (!stepper.has_two_estimates()) return fine * Real(1.0 / size);
+            if (!stepper.has_two_estimates()) return fine * Real(1.0 / n);
             // A norm that falls with the order of the method: a²/(a² + b²/100) of the sums of squares a of the fine estimate and b of the
             // coarse one times a² (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.10).
             stepper.coarse_errors(to, errors);
             Real const coarse = sum_of(pack, settings, from, to, errors, pack.coarse_audit_error);
-            return fine * (fine / max(Real(1e-300), fma(Real(0.01), coarse, fine))) * Real(1.0 / size);
+            return fine * (fine / max(Real(1e-300), fma(Real(0.01), coarse, fine))) * Real(1.0 / n);
         }
     }
 
@@ -52,7 +53,7 @@ private:
                                    Attempt<Model, Real> const& to, Real const* errors, Real const* audit_error) {
         SquaredRatios<Real> sum;
         SLIDEWAY_UNROLL
-        for (int i = 0; i < size; ++i) sum.add(errors[i], tolerance(pack, settings, from, to, i, 0.0));
+        for (int i = 0, n = pack.states(); i < n; ++i) sum.add(errors[i], tolerance(pack, settings, from, to, i, 0.0));
         add_audit(pack, settings, from, to, audit_error, sum);
         return sum.total();
     }

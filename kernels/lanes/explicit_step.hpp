@@ -20,14 +20,15 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         SLIDEWAY_EXPECT(pack.pair != nullptr && pack.pair->stages > 1 && pack.pair->stages + pack.pair->dense_stages <= PairNumbers::most_stages);
         pair_ = pack.pair;
-        for (int i = 0; i < size; ++i) k_[0][i] = from.rates[i];
+        states_ = pack.states();
+        for (int i = 0; i < states_; ++i) k_[0][i] = from.rates[i];
         to.faults = Faults<Real>::none();
         if (from.needs.stages) pack.begin_integrals(weights(0));
         prepared_ = mask_of<Real>(false);
         int const last = pair_->stages - 1;
         for (int s = 1; s < last; ++s) stage(pack, from, to, s, at_, from.needs.stages);
         stage(pack, from, to, last, to.end, from.needs.ends);
-        for (int i = 0; i < size; ++i) to.end_rates[i] = k_[last][i];
+        for (int i = 0; i < states_; ++i) to.end_rates[i] = k_[last][i];
     }
 
     /// Error estimates of the components.
@@ -49,7 +50,7 @@ public:
 
     /// The state inside the step, at fraction θ of it.
     SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
-        pair_->dense(k_, from.y, to.end, to.step, theta, state);
+        pair_->dense(k_, from.y, to.end, to.step, theta, state, states_);
     }
 
 private:
@@ -57,7 +58,7 @@ private:
 
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to, int s, Real* at,
                            bool report_wanted) {
-        pair_->stage_state(s, from.y, k_, to.step, at);
+        pair_->stage_state(s, from.y, k_, to.step, at, states_);
         pack.tell_stages(s + 1 < pair_->stages);
         Real const t = fma(to.step, Real(pair_->c[s]), from.t);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
@@ -66,8 +67,8 @@ private:
     }
 
     SLIDEWAY_HD void estimate(double const* weights, Attempt<Model, Real> const& to, Real* of_state) const {
-        PairNumbers::combine(weights, pair_->stages, k_, of_state);
-        for (int i = 0; i < size; ++i) of_state[i] = to.step * of_state[i];
+        PairNumbers::combine(weights, pair_->stages, k_, of_state, states_);
+        for (int i = 0; i < states_; ++i) of_state[i] = to.step * of_state[i];
     }
 
     /// Of a stage in the integrals over the step.
@@ -77,12 +78,13 @@ private:
         auto const from = pack.start();
         typename Model::template Report<Real> report;
         for (int s = pair_->stages; s < pair_->stages + pair_->dense_stages; ++s) {
-            pair_->stage_state(s, from.y, k_, to.step, at_);
+            pair_->stage_state(s, from.y, k_, to.step, at_, states_);
             pack.evaluate(fma(to.step, Real(pair_->c[s]), from.t), at_, from.memory, k_[s], false, report);
         }
     }
 
     PairNumbers const* pair_ = nullptr;
+    int states_ = size;
     Real k_[PairNumbers::most_stages][size];
     Real at_[size];        // where a stage evaluates the derivative
     Mask<Real> prepared_;  // lanes whose continuous extension is complete

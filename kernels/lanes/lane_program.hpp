@@ -205,7 +205,7 @@ private:
         typename Model::template Report<Real> report;
         auto faults = pack_.evaluate(c.t, c.y, contacts.memory, rates, pack_.needs.ends, report);
         pack_.count_evaluations(pack_.busy, 1);
-        auto const whole = is_finite(c.y, rates);
+        auto const whole = is_finite(c.y, rates, pack_.states());
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, report, c.y, pack_.needs.switches);
         pack_.with_records([&](auto& record, auto...) { record.start(pack_.busy, report); });
         pack_.begin_next(pack_.busy, rates, report);

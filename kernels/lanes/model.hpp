@@ -38,6 +38,12 @@ struct ModelDefaults {
     template <class... Offset> SLIDEWAY_FN static void keep_offset(Offset const&...) {}
 };
 
+/// How many components a model's state has: `size`; or where the model says it, which looks its equations up, as many as that at most.
+template <class Model> SLIDEWAY_FN int states_of([[maybe_unused]] Model const& model) {
+    if constexpr (requires { model.states(); }) return model.states();
+    else return Model::size;
+}
+
 /// Whether a model's accelerations may be asked for, and its forces: it names an `Accelerations<Real>`, a `Forces<Real>`.
 template <class Model> concept HasAccelerations = requires { typename Model::template Accelerations<double>; };
 template <class Model> concept HasForces = requires { typename Model::template Forces<double>; };
@@ -63,7 +69,7 @@ template <class Model, class Real> class ModelParts {
 
     static_assert(std::is_base_of_v<ModelDefaults, Model>, "ModelDefaults: a base, of which the model hides what it does otherwise");
     static_assert(requires { typename Model::Inputs; }, "Inputs: plain numbers of one member");
-    static_assert(requires { int{Model::size}; }, "size: of the state");
+    static_assert(requires { int{Model::size}; }, "size: of the state, or what room it takes at most where the model says states()");
     static_assert(requires { int{Model::series}; },
                   "series: how many columns a sample may have, which are the state, and if there are more those where state_of_series(series) says");
     static_assert(requires { typename Model::template Parameters<double>; }, "Parameters<Real>: of a member");

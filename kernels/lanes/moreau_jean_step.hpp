@@ -21,26 +21,28 @@ public:
     /// Idle lanes step in place.
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         Real const half = Real(0.5) * to.step;
+        states_ = pack.states();
         Real middle[size], start[size], moved[size];
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < states_; ++i) {
             middle[i] = fma(half, from.rates[i], from.y[i]);
             start[i] = is_rate(i) ? from.y[i] : middle[i];
         }
         if (from.needs.stages) pack.begin_integrals(at_an_end);
         Report report;
         to.faults = pack.evaluate(from.t + half, middle, from.memory, rates_, true, report);
-        for (int i = 0; i < size; ++i) moved[i] = is_rate(i) ? fma(to.step, rates_[i], from.y[i]) : middle[i];
+        for (int i = 0; i < states_; ++i) moved[i] = is_rate(i) ? fma(to.step, rates_[i], from.y[i]) : middle[i];
         auto const& p = pack.state.constants.parameters;
         auto const failed = pack.model.push(from.t + half, to.step, start, moved, p, report.contact);
         Real after[size];
         pack.model.put_place_rates(moved, p, after);
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < states_; ++i) {
             if (!is_rate(i)) rates_[i] = after[i];
             to.end[i] = is_rate(i) ? moved[i] : fma(half, rates_[i], moved[i]);
         }
         to.faults = to.faults.or_else(pack.evaluate(from.t + to.step, to.end, from.memory, to.end_rates, from.needs.ends, to.report));
         to.faults.contact_domain = to.faults.contact_domain | failed;
-        to.end_rates[size - 1] = select(failed, Real(not_a_number), to.end_rates[size - 1]);
+        Real& last = to.end_rates[states_ - 1];
+        last = select(failed, Real(not_a_number), last);
         if (from.needs.ends) tell(report.contact, to.report.contact);
         if (from.needs.stages) pack.add_integrands(at_an_end, to.report);
     }
@@ -49,7 +51,7 @@ public:
     SLIDEWAY_FN void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
         auto const early = theta < Real(0.5);
         Real const since = theta * to.step, left = to.step - since;
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < states_; ++i) {
             Real const slope = is_rate(i) ? rates_[i] : from.rates[i];
             state[i] = select(early, fma(since, slope, from.y[i]), fnma(left, rates_[i], to.end[i]));
         }
@@ -71,6 +73,7 @@ private:
 
     static constexpr bool is_rate(int i) { return (Model::rate_components >> i & 1u) != 0; }
 
+    int states_ = size;
     Real rates_[size];  // of places in the second half of the step, of rates without impulses
 };
 

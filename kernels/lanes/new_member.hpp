@@ -34,7 +34,7 @@ template <class Model> struct NewMember {
         r.constants.turns = clock.turns;
         r.constants.first_back = clock.first_back;
         r.constants.start_angle = c.y[crank_place<Model, 0>];
-        if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member);
+        if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member, states_of(model));
         if constexpr (HasClocks<Model>) c.clocked = {0.0, c.h, 0.0, 0.0, 0.0};
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;
@@ -43,12 +43,12 @@ template <class Model> struct NewMember {
 
 private:
     /// Puts its shadows beside it.
-    SLIDEWAY_HD static void place_shadows(Record& r, ShadowPlan const& plan, std::size_t member) {
+    SLIDEWAY_HD static void place_shadows(Record& r, ShadowPlan const& plan, std::size_t member, int states) {
         for (int s = 0; s < plan.count; ++s) {
             auto const row = member * static_cast<std::size_t>(plan.count) + static_cast<std::size_t>(s);
-            double const* const direction = plan.directions + row * Model::size;
+            double const* const direction = plan.directions + row * static_cast<std::size_t>(states);
             auto& shadow = r.shadows[s];
-            for (int i = 0; i < Model::size; ++i) {
+            for (int i = 0; i < states; ++i) {
                 shadow.y[i] = fma(plan.d0 * r.constants.scale[i], direction[i], r.course.y[i]);
             }
             shadow.distance = plan.d0;

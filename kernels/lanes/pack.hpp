@@ -36,6 +36,9 @@ template <class Model, class Real> struct Pack {
     Real audit_error[room(Observer::audit_integrals)];  // Σ e_s · integrand
     Real coarse_audit_error[room(Observer::audit_integrals)];  // of the second estimate, of a method that has two
 
+    /// How many components the state has, of room for `size`.
+    SLIDEWAY_FN int states() const { return states_of(model); }
+
     /// Where the members' next step starts.
     SLIDEWAY_FN StepStart<Model, Real> start() const {
         return {state.course.t, state.course.y, state.course.rates, state.contacts.memory, needs};
@@ -121,7 +124,7 @@ template <class Model, class Real> struct Pack {
     /// What the next step starts from, in the lanes of the mask.
     SLIDEWAY_HD void begin_next(Mask<Real> in, Real const* rates, Report const& report) {
         auto& c = state.course;
-        for (int i = 0; i < size; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
+        for (int i = 0, n = states(); i < n; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
         if (!needs.stages) return;
         Real values[room(Observer::integrals)];
         observe(report, values);

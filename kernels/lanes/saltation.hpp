@@ -34,10 +34,10 @@ public:
 
     /// @param in lanes where `settle` changes something  @param at_start whether it does so before the first step: at no other time then
     SLIDEWAY_HD Saltation(Model const& model, Parameters const& p, Before const& before, Mask<Real> in, bool at_start)
-        : model_(model), before_(before), in_(in), at_start_(at_start) {
+        : model_(model), before_(before), in_(in), at_start_(at_start), states_(states_of(model)) {
         lift(p, p_);
         lift(before.memory, memory_);
-        for (int i = 0; i < size; ++i) flow_[i] = before.rates[i];
+        for (int i = 0; i < states_; ++i) flow_[i] = before.rates[i];
         along_ = contact_along(flow_, Real(1.0));
         look_before_stops(p);
     }
@@ -54,7 +54,7 @@ public:
         auto contact = contact_along(offset, Real(0.0));
         auto const carried = delay_of(contact);
         Number y[size];
-        for (int i = 0; i < size; ++i) y[i] = {before_.y[i], fma(flow_[i], carried.delay, offset[i])};
+        for (int i = 0; i < states_; ++i) y[i] = {before_.y[i], fma(flow_[i], carried.delay, offset[i])};
         // Of the member what it has itself, to the last bit: the same decisions follow.
         auto const* const own = reinterpret_cast<Real const*>(&before_.contact);
         auto const* const along = reinterpret_cast<Number const*>(&along_);
@@ -66,7 +66,7 @@ public:
         Number const t(before_.t, carried.delay);
         model_.settle(in_, t, Number(before_.end), y, p_, memory, contact);
         model_.keep_offset(in_, t, y, p_, memory);
-        for (int i = 0; i < size; ++i) offset[i] = y[i].slope;
+        for (int i = 0; i < states_; ++i) offset[i] = y[i].slope;
         return carried;
     }
 
@@ -91,7 +91,7 @@ private:
     /// How what the contacts report changes along a direction.
     SLIDEWAY_NOINLINE Contacts contact_along(Real const* direction, Real of_time) const {
         Number y[size], rates[size];
-        for (int i = 0; i < size; ++i) y[i] = {before_.y[i], direction[i]};
+        for (int i = 0; i < states_; ++i) y[i] = {before_.y[i], direction[i]};
         typename Model::template Report<Number> report;
         model_.template derivative<true>(Number(before_.t, of_time), y, p_, memory_, rates, &report);
         return report.contact;
@@ -106,11 +106,11 @@ private:
         typename Model::template Report<Real>* const no_report = nullptr;
         for (int twice = 0; twice < 2; ++twice) {
             Real const ago = twice == 0 ? since : since + since;
-            for (int i = 0; i < size; ++i) y[i] = fnma(ago, before_.rates[i], before_.y[i]);
+            for (int i = 0; i < states_; ++i) y[i] = fnma(ago, before_.rates[i], before_.y[i]);
             model_.template derivative<false>(before_.t - ago, y, p, before_.memory, rates[twice], no_report);
         }
         // As it goes on from there.
-        for (int i = 0; i < size; ++i) flow_[i] = select(earlier, (rates[0][i] - rates[1][i]) + rates[0][i], flow_[i]);
+        for (int i = 0; i < states_; ++i) flow_[i] = select(earlier, (rates[0][i] - rates[1][i]) + rates[0][i], flow_[i]);
         along_ = contact_along(flow_, Real(1.0));
     }
 
@@ -187,6 +187,7 @@ private:
     Before const before_;
     Mask<Real> const in_;
     bool const at_start_;
+    int const states_;
     typename Model::template Parameters<Number> p_;
     typename Model::template Memory<Number> memory_;
     Real flow_[size];  // derivative before the event

@@ -27,7 +27,7 @@ public:
         auto const& constants = pack.state.constants;
         auto const before = memory;
         Real start[Model::size];
-        for (int i = 0; i < Model::size; ++i) start[i] = c.y[i];
+        for (int i = 0, n = pack.states(); i < n; ++i) start[i] = c.y[i];
         auto const changed = pack.model.settle(pack.busy, c.t, constants.end, c.y, constants.parameters, memory, report.contact);
         ImpactRows<Model, Real>::take(pack, results, changed, start);
         if (any(changed)) neighbours.settle(pack, start, rates, report.contact, before, changed, true);
@@ -71,7 +71,7 @@ public:
             step.neighbours.settle(pack, attempt.end, attempt.end_rates, attempt.report.contact, before, changed, false);
             auto const faults = step.restart(changed);
             // No step leads out of where contacts have no forces.
-            auto const jams = changed & faults.contact_domain & !is_finite(c.y, attempt.end_rates);
+            auto const jams = changed & faults.contact_domain & !is_finite(c.y, attempt.end_rates, pack.states());
             memory.jammed = select(jams, Real(1.0), memory.jammed);
             step.neighbours.depart(pack, changed);
         }

@@ -8,31 +8,29 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// The offset of a shadow from its member, in the scales of the state, and behind it that of the impact speeds that both remember.
 template <class Model, class Real> struct ShadowOffset {
-    static constexpr int size = Model::size;
     using Shadow = typename MemberState<Model, Real>::Shadow;
     using Memory = typename Model::template Memory<Real>;
 
-    template <int width>
-    SLIDEWAY_HD static void read(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
+    /// @param width numbers of the offset: the state's, and how many impact speeds behind them
+    SLIDEWAY_HD static void read(Pack<Model, Real> const& pack, Shadow const& shadow, int width, Real* w) {
         auto const& s = pack.state;
-        for (int i = 0; i < size; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
-        if constexpr (width > size) {
-            for (int i = size; i < width; ++i) {
-                w[i] = numbers(shadow.contacts.memory)[i - size] - numbers(s.contacts.memory)[i - size];
-            }
+        int const n = pack.states();
+        for (int i = 0; i < n; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
+        if constexpr (has_speeds) {
+            for (int i = n; i < width; ++i) w[i] = numbers(shadow.contacts.memory)[i - n] - numbers(s.contacts.memory)[i - n];
         }
     }
 
-    template <int width>
-    SLIDEWAY_HD static void write(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, Real length, Shadow& shadow) {
+    SLIDEWAY_HD static void write(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, int width, Real length, Shadow& shadow) {
         auto const& s = pack.state;
-        for (int i = 0; i < size; ++i) {
+        int const n = pack.states();
+        for (int i = 0; i < n; ++i) {
             shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
         }
-        if constexpr (width > size) {
-            for (int i = size; i < width; ++i) {
-                Real& number = numbers(shadow.contacts.memory)[i - size];
-                Real const own = numbers(s.contacts.memory)[i - size];
+        if constexpr (has_speeds) {
+            for (int i = n; i < width; ++i) {
+                Real& number = numbers(shadow.contacts.memory)[i - n];
+                Real const own = numbers(s.contacts.memory)[i - n];
                 number = select(in, Model::remembered(fma(length, w[i], own)), number);
             }
         }
@@ -43,7 +41,7 @@ template <class Model, class Real> struct ShadowOffset {
         Real least(least_distance);
         if constexpr (IsRigid<Model>) {
             auto const& s = pack.state;
-            for (int i = 0; i < size; ++i) {
+            for (int i = 0, n = pack.states(); i < n; ++i) {
                 if ((pack.model.prescribed() >> i & 1u) != 0) continue;
                 least = max(Real(4 * 2.220446049250313e-16) * abs(s.course.y[i]) / s.constants.scale[i], least);
             }
@@ -52,6 +50,7 @@ template <class Model, class Real> struct ShadowOffset {
     }
 
 private:
+    static constexpr bool has_speeds = Memory::speeds > 0;
     /// The impact speeds come first in it.
     SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
     SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }

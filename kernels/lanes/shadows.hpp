@@ -39,7 +39,7 @@ public:
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
             faults = faults.or_else(refresh(pack, shadow, fresh));
-            broken = broken | (fresh & !is_finite(shadow.y, shadow.rates));
+            broken = broken | (fresh & !is_finite(shadow.y, shadow.rates, pack.states()));
         }
         return broken;
     }
@@ -60,7 +60,7 @@ public:
             if (step.adapts()) {
                 squared_norm_ = larger_norm(step.squared_error(from, end), squared_norm_);
             } else {
-                finite_ = finite_ & is_finite(end.end, end.end_rates);
+                finite_ = finite_ & is_finite(end.end, end.end_rates, pack.states());
             }
             faults_ = faults_.or_else(end.faults);
             pack.template count_attempt<std::remove_cvref_t<decltype(step.stepper)>>(pack.busy);
@@ -95,7 +95,7 @@ public:
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
             auto const& end = ends_[s];
-            for (int i = 0; i < size; ++i) {
+            for (int i = 0, n = pack.states(); i < n; ++i) {
                 shadow.y[i] = select(accepted, end.end[i], shadow.y[i]);
                 shadow.rates[i] = select(accepted, end.end_rates[i], shadow.rates[i]);
             }
@@ -116,7 +116,7 @@ public:
         typename Saltation<Model, Real>::Before const event{pack.state.course.t, pack.state.constants.end, y, rates, contact, memory};
         Saltation<Model, Real> const saltation(pack.model, pack.state.constants.parameters, event, in, at_start);
         for (int s = 0; s < plan_.count; ++s) {
-            for (int i = 0; i < size; ++i) carried_[s].offset[i] = pack.state.shadows[s].y[i] - y[i];
+            for (int i = 0, n = pack.states(); i < n; ++i) carried_[s].offset[i] = pack.state.shadows[s].y[i] - y[i];
             auto const [delay, apart] = saltation.carry(carried_[s].offset);
             carried_[s].delay = delay;
             carried_[s].apart = apart;
@@ -130,7 +130,8 @@ public:
             auto& shadow = pack.state.shadows[s];
             auto& [offset, delay, apart] = carried_[s];
             Real square(0.0);
-            for (int i = 0; i < size; ++i) {
+            int const n = pack.states();
+            for (int i = 0; i < n; ++i) {
                 offset[i] = fnma(c.rates[i], delay, offset[i]);
                 Real const length = offset[i] / pack.state.constants.scale[i];
                 square = fma(length, length, square);
@@ -139,7 +140,7 @@ public:
             auto const large = !(square <= Real(largest_distance * largest_distance));
             c.shadowed.grown = c.shadowed.grown + count<Real>(in & (apart | large));
             Real const shorter = select(large, Real(largest_distance) / sqrt(square), Real(1.0));
-            for (int i = 0; i < size; ++i) {
+            for (int i = 0; i < n; ++i) {
                 Real const moved = fma(offset[i], shorter, c.y[i]);
                 shadow.y[i] = select(in, select(moved - moved == Real(0.0), moved, c.y[i]), shadow.y[i]);
             }
@@ -152,23 +153,23 @@ public:
     SLIDEWAY_NOINLINE void stop(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at) {
         // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
         bool const speeds = pack.needs.cuts() && pack.needs.watching != Watching::modes;
-        constexpr int width = IsRigid<Model> ? size : size + Memory::speeds;
-        speeds ? rescale_numbers<width>(pack, at) : rescale_numbers<size>(pack, at);
+        rescale_numbers(pack, at, pack.states() + (speeds ? Memory::speeds : 0));
         results.take_growth(pack, at);
     }
 
 private:
-    /// @tparam width numbers of an offset: the state's, and the impact speeds
-    template <int width> SLIDEWAY_HD void rescale_numbers(Pack<Model, Real>& pack, Mask<Real> at) {
-        Real w[most_shadows][width], length[most_shadows];
+    /// @param width numbers of an offset: the state's, and the impact speeds
+    SLIDEWAY_HD void rescale_numbers(Pack<Model, Real>& pack, Mask<Real> at, int width) {
+        Real w[most_shadows][size + Memory::speeds], length[most_shadows];
+        int const n = pack.states();
         auto& counts = pack.state.course.shadowed;
         for (int s = 0; s < plan_.count; ++s) {
-            Offset::template read<width>(pack, pack.state.shadows[s], w[s]);
-            auto const large = inner_product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
+            Offset::read(pack, pack.state.shadows[s], width, w[s]);
+            auto const large = inner_product(w[s], w[s], n) > Real(largest_distance * largest_distance);
             counts.grown = counts.grown + count<Real>(at & large);
         }
         Real const least = Offset::rounding(pack), d0(plan_.d0);
-        orthonormalise<size, width>(w, plan_.count, least, pack.model.prescribed(), length);
+        orthonormalise(w, plan_.count, n, width, least, pack.model.prescribed(), length);
         [[maybe_unused]] auto lost = mask_of<Real>(false);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
@@ -179,7 +180,7 @@ private:
             counts.lost = counts.lost + count<Real>(at & found.lost);
             lost = lost | (at & found.lost) | shrunk;
             if (none(found.moved)) continue;
-            Offset::template write<width>(pack, found.moved, w[s], d0, shadow);
+            Offset::write(pack, found.moved, w[s], width, d0, shadow);
             refresh(pack, shadow, found.moved);
         }
         if constexpr (IsRigid<Model>) {
@@ -201,7 +202,7 @@ private:
             settle(pack, c.y, c.rates, report_.contact, memory, in, true);
             for (int s = 0; s < plan_.count; ++s) {
                 Real* const y = pack.state.shadows[s].y;
-                for (int i = 0; i < size; ++i) y[i] = select(in, c.y[i] + carried_[s].offset[i], y[i]);
+                for (int i = 0, n = pack.states(); i < n; ++i) y[i] = select(in, c.y[i] + carried_[s].offset[i], y[i]);
             }
         }
         for (int s = 0; s < plan_.count; ++s) evaluate(pack, pack.state.shadows[s], in);
@@ -237,7 +238,7 @@ private:
         auto const faults = pack.evaluate(pack.state.course.t, shadow.y, memory_of(pack, shadow), rates,
                                           pack.needs.cuts() && !IsRigid<Model>, report_);
         pack.count_evaluations(in, 1);
-        for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
+        for (int i = 0, n = pack.states(); i < n; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
         return faults.within(in);
     }
 

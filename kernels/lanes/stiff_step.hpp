@@ -27,15 +27,16 @@ public:
         hg_ = to.step * Real(w.gamma);
         matrix_.factor(hg_);
         residual_ = Real(0.0);
+        states_ = pack.states();
         to.faults = take_drift(pack, from, to);
         if (from.needs.stages) pack.begin_integrals({w.b[0], w.e[0]});
-        for (int i = 0; i < size; ++i) right_[i] = fma(Real(w.drift[0]), drift_[i], hg_ * from.rates[i]);
+        for (int i = 0; i < states_; ++i) right_[i] = fma(Real(w.drift[0]), drift_[i], hg_ * from.rates[i]);
         solve(0);
         stage<1>(pack, from, to);
         stage<2>(pack, from, to);
         stage<3>(pack, from, to);
         Real const half_square = Real(0.5) * (to.step * to.step);
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < states_; ++i) {
             to.end[i] = combined(fma(half_square, bend_[i], from.y[i]), w.m, i);
             error_[i] = combined(Real(0.0), w.error, i);
         }
@@ -43,13 +44,13 @@ public:
             pack.evaluate(from.t + to.step, to.end, from.memory, to.end_rates, from.needs.ends, to.report);
         to.faults = to.faults.or_else(faults);
         // The estimate does not know the derivative at the end, from which the next step starts: an infinite one is no solution.
-        for (int i = 0; i < size; ++i) residual_ = fma(to.end_rates[i], Real(0.0), residual_);
+        for (int i = 0; i < states_; ++i) residual_ = fma(to.end_rates[i], Real(0.0), residual_);
     }
 
     /// Error estimates of the components; NaN where the linear equations were not solved or the end has no derivative.
     SLIDEWAY_HD void errors(Attempt<Model, Real> const&, Real* of_state) const {
         auto const solved = residual_ <= Real(largest_residual);
-        for (int i = 0; i < size; ++i) of_state[i] = select(solved, error_[i], Real(follows));
+        for (int i = 0; i < states_; ++i) of_state[i] = select(solved, error_[i], Real(follows));
     }
 
     /// Reduces the estimate to what of it is left after a time τ: (I − τA)⁻¹ error, an implicit Euler step of the linearised motion.
@@ -63,13 +64,13 @@ public:
 
     /// That, of components where it is smaller than the whole: the matrix may be near a singular one.
     SLIDEWAY_HD void lasting_errors(Real const* whole, Real* lasting) const {
-        for (int i = 0; i < size; ++i) lasting[i] = select(abs(lasting_error_[i]) < abs(whole[i]), lasting_error_[i], whole[i]);
+        for (int i = 0; i < states_; ++i) lasting[i] = select(abs(lasting_error_[i]) < abs(whole[i]), lasting_error_[i], whole[i]);
     }
 
     /// The state inside the step: the straight line, for the derivatives at its ends belong to fast motions that the method
     /// damps.  Steps end where samples are wanted.
     SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
-        for (int i = 0; i < size; ++i) state[i] = fma(theta, to.end[i] - from.y[i], from.y[i]);
+        for (int i = 0; i < states_; ++i) state[i] = fma(theta, to.end[i] - from.y[i], from.y[i]);
     }
 
     /// Ω² [1/s²] of the stiffest motions and the number of touching pairs, at the start of the step.
@@ -91,7 +92,7 @@ private:
         for (auto& of_state : bend_) of_state = Real(0.0);
         pack.model.bend(from.t, to.step, from.y, pack.state.constants.parameters, bend_);
         Real const squared = hg_ * to.step;
-        for (int i = 0; i < size; ++i) drift_[i] = fms(factor, drift_[i] - from.rates[i], squared * bend_[i]);
+        for (int i = 0; i < states_; ++i) drift_[i] = fms(factor, drift_[i] - from.rates[i], squared * bend_[i]);
         return faults;
     }
 
@@ -99,7 +100,7 @@ private:
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr Ros34pw2Tableau w{};
         Real const after = to.step * Real(w.node[s]), half_square = Real(0.5) * (after * after);
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < states_; ++i) {
             Real sum = fma(half_square, bend_[i], from.y[i]);
             for (int j = 0; j < s; ++j) sum = fma(Real(w.a[s][j]), u_[j][i], sum);
             at_[i] = sum;
@@ -107,7 +108,7 @@ private:
         auto const faults = pack.evaluate(from.t + after, at_, from.memory, right_, from.needs.stages, to.report);
         to.faults = to.faults.or_else(faults);
         if (from.needs.stages) pack.add_integrands({w.b[s], w.e[s]}, to.report);
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < states_; ++i) {
             Real sum = fma(Real(w.drift[s]), drift_[i], hg_ * fnma(after, bend_[i], right_[i]));
             for (int j = 0; j < s; ++j) sum = fma(Real(w.gamma * w.c[s][j]), u_[j][i], sum);
             right_[i] = sum;
@@ -132,6 +133,7 @@ private:
     Real at_[size];  // where a stage evaluates the derivative
     Real drift_[size], bend_[size];  // of an equilibrium that moves
     Real hg_, residual_;
+    int states_ = size;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -163,7 +163,7 @@ private:
 
     SLIDEWAY_HD Allowance<Real> allowed_if_finite(Mask<Real>& divergent) {
         auto const busy = step_.pack.busy;
-        Mask<Real> const accepted = step_.neighbours.finite_beside(busy & is_finite(step_.attempt.end, step_.attempt.end_rates));
+        Mask<Real> const accepted = step_.neighbours.finite_beside(busy & is_finite(step_.attempt.end, step_.attempt.end_rates, step_.pack.states()));
         divergent = busy & !accepted;
         return {accepted, step_.attempt.step};
     }
@@ -179,7 +179,7 @@ private:
         record(accepted, t_end);
         search_.reset(pack, attempt);
         observe(accepted);
-        for (int i = 0; i < Model::size; ++i) c.y[i] = select(accepted, attempt.end[i], c.y[i]);
+        for (int i = 0, n = pack.states(); i < n; ++i) c.y[i] = select(accepted, attempt.end[i], c.y[i]);
         c.t = select(accepted, t_end, c.t);
         if (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack.begin_next(accepted, attempt.end_rates, attempt.report);

@@ -5,7 +5,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-template <int n, class Real> SLIDEWAY_FN Real inner_product(Real const* a, Real const* b) {
+template <class Real> SLIDEWAY_FN Real inner_product(Real const* a, Real const* b, int n) {
     Real sum(0.0);
     for (int i = 0; i < n; ++i) sum = fma(a[i], b[i], sum);
     return sum;
@@ -15,8 +15,8 @@ namespace detail {
 
 /// In the lanes of the mask, the axis that the unit vectors before `w` span least, less what they span of it, as a unit vector.
 /// @param barred axes that do not count, a bit each
-template <int n, int width, class Real>
-SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], int units, unsigned barred, Real* w) {
+template <int room, class Real>
+SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[room], int units, int n, int width, unsigned barred, Real* w) {
     Real most(-1.0), which(0.0);
     for (int axis = 0; axis < n; ++axis) {
         if ((barred >> axis & 1u) != 0) continue;
@@ -26,13 +26,13 @@ SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], i
         most = select(more, left, most);
         which = select(more, Real(static_cast<double>(axis)), which);
     }
-    Real axis[n];
+    Real axis[room];
     for (int i = 0; i < n; ++i) axis[i] = count<Real>(which == Real(static_cast<double>(i)));
     for (int j = 0; j < units; ++j) {
-        Real const along = inner_product<n>(unit[j], axis);
+        Real const along = inner_product(unit[j], axis, n);
         for (int i = 0; i < n; ++i) axis[i] = fnma(along, unit[j][i], axis[i]);
     }
-    Real const length = sqrt(inner_product<n>(axis, axis));
+    Real const length = sqrt(inner_product(axis, axis, n));
     for (int i = 0; i < n; ++i) w[i] = select(in, axis[i] / length, w[i]);
     for (int i = n; i < width; ++i) w[i] = select(in, Real(0.0), w[i]);
 }
@@ -43,19 +43,19 @@ SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], i
 /// products, the others are carried along.  A vector that the earlier ones leave no more than `least` of gives way to an axis.
 /// @param barred axes that no vector has a part along, a bit each
 /// @param length [vectors] what the earlier ones left of each, R_jj of the QR decomposition
-template <int n, int width, class Real>
-SLIDEWAY_HD void orthonormalise(Real (*w)[width], int vectors, Real least, unsigned barred, Real* length) {
-    SLIDEWAY_EXPECT(vectors <= n);
+template <int room, class Real>
+SLIDEWAY_HD void orthonormalise(Real (*w)[room], int vectors, int n, int width, Real least, unsigned barred, Real* length) {
+    SLIDEWAY_EXPECT(vectors <= n && n <= width && width <= room);
     for (int j = 0; j < vectors; ++j) {
         for (int k = 0; k < j; ++k) {
-            Real const along = inner_product<n>(w[k], w[j]);
+            Real const along = inner_product(w[k], w[j], n);
             for (int i = 0; i < width; ++i) w[j][i] = fnma(along, w[k][i], w[j][i]);
         }
-        length[j] = sqrt(inner_product<n>(w[j], w[j]));
+        length[j] = sqrt(inner_product(w[j], w[j], n));
         auto const lost = !(length[j] > least);  // NaN too
         Real const inverse = Real(1.0) / select(lost, Real(1.0), length[j]);
         for (int i = 0; i < width; ++i) w[j][i] = inverse * w[j][i];
-        if (any(lost)) detail::place_least_spanned<n, width>(lost, w, j, barred, w[j]);
+        if (any(lost)) detail::place_least_spanned(lost, w, j, n, width, barred, w[j]);
     }
 }
 

@@ -7,7 +7,8 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// A slider whose crank turns as forces let it: behind the ten numbers of the state its angle θ and speed θ'.
-struct CrankStateBase : TwelveStateBase {
+struct CrankStateBase : SliderBase {
+    static constexpr int size = 12;
     SLIDEWAY_HD static constexpr int state_of_series(int series) {
         if (series == static_cast<int>(Series::crank_angle)) return 10;
         if (series == static_cast<int>(Series::crank_angular_velocity)) return 11;

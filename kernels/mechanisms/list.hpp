@@ -9,10 +9,10 @@
     row(slider_crank, SliderCrank, SliderBase)   \
     row(carriage, Carriage, SliderBase)          \
     row(scotch_yoke, ScotchYoke, SliderBase)     \
-    row(free_slider, FreeSlider, TwelveStateBase) \
+    row(free_slider, FreeSlider, SliderBase) \
     row(planar_slider_crank, PlanarSliderCrank, PlanarBase) \
-    row(slider_crank_motor, SliderCrankMotor, TwelveStateBase) \
-    row(scotch_yoke_motor, ScotchYokeMotor, TwelveStateBase)
+    row(slider_crank_motor, SliderCrankMotor, SliderBase) \
+    row(scotch_yoke_motor, ScotchYokeMotor, SliderBase)
 
 namespace slideway {
 

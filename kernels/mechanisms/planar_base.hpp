@@ -11,7 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// What all planar slider-cranks share.
 struct PlanarBase {
     using Inputs = slideway::Inputs;
-    static constexpr int size = 6, crank_state[] = {0, 3};
+    static constexpr int size = 6, room = size, crank_state[] = {0, 3};
     static constexpr MechanismInfo info = [] {
         MechanismInfo info{};
         info.name = "planar_slider_crank";

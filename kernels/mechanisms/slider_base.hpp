@@ -13,7 +13,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// damping.
 struct SliderBase {
     using Inputs = slideway::Inputs;
-    static constexpr int size = state_size;
+    static constexpr int size = state_size;   // a mechanism's own
+    static constexpr int room = most_states;  // of the lanes that all share
+    static constexpr int crank_state[] = {10, 11};  // angle and speed, of a mechanism whose crank turns freely
     template <class Real> using Parameters = SliderParameters<Real>;
     template <class Real> using Report = SliderReport<Real>;
     template <class Real> using Linearisation = SliderLinearisation<Real>;
@@ -50,14 +52,15 @@ struct SliderBase {
     }
 };
 
-/// What the lanes of several bases look up of one: they are compiled for a number of states.
+/// What lanes look up of the state of a mechanism.
 template <class Parameters> struct StateFunctions {
+    int count = 0;  // components
     void (*scales)(Parameters const&, double*) = nullptr;
     void (*start)(Inputs const&, double*) = nullptr;
     int (*of_series)(int) = nullptr;
 
     template <class Base> static constexpr StateFunctions of() {
-        return {[](Parameters const& p, double* scale) { Base::scales(p, scale); }, &Base::initial_state, &Base::state_of_series};
+        return {Base::size, [](Parameters const& p, double* scale) { Base::scales(p, scale); }, &Base::initial_state, &Base::state_of_series};
     }
 };
 
@@ -70,15 +73,10 @@ SLIDEWAY_HD inline SliderParameters<double> parameters_without_rod(Inputs const&
     return p;
 }
 
-/// A slider with two numbers more behind its ten: a place and its rate, which no contact is stiff against.
-struct TwelveStateBase : SliderBase {
-    static constexpr int size = 12, crank_state[] = {10, 11};  // these are a crank's where the mechanism has one that turns freely
-    template <class Real> using Linearisation = FreeSliderLinearisation<Real>;
-};
-
 /// A slider free along the way too.  The way passes through (0, offset_y, offset_z); speeds are counted by the fall through the clearance,
 /// √(g c).
-struct FreeSliderBase : TwelveStateBase {
+struct FreeSliderBase : SliderBase {
+    static constexpr int size = 12;
     SLIDEWAY_HD static constexpr int state_of_series(int series) { return series < size ? series : -1; }
 
     template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {

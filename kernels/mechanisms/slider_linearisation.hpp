@@ -18,6 +18,7 @@ template <class Real> struct SliderLinearisation {
     JointStiffness<Real> joint;    // K and D
     Real mass_y, mass_z, mass_yz;  // of (vy, vz): m (1 + κκᵀ) [kg]
     Vec3<Real> inertia;            // of ω [kg m²]
+    bool has_twelve;               // components of the state, the last a place and its rate, which no contact is stiff against
     SinCos<Real> roll, yaw;
     Real touching;  // apex–face pairs in contact, and one more where there is an oil film
     bool is_coupled = false;  // where turning moves the pin or the centre of mass, in place of these masses:
@@ -53,7 +54,7 @@ template <class Real> struct SliderLinearisation {
         factors_.factor(matrix_);
     }
 
-    /// (I − hγ A) u = r.  @param r, u ten values each, ordered as the state; they may be the same array.
+    /// (I − hγ A) u = r.  @param r, u ordered as the state; they may be the same array.
     SLIDEWAY_NOINLINE void solve(Real const* r, Real* u) const {
         Real v[5];
         right_hand_side(r, v);
@@ -70,6 +71,10 @@ template <class Real> struct SliderLinearisation {
         u[7] = v[2];
         u[8] = v[3];
         u[9] = v[4];
+        if (has_twelve) {  // these two follow explicitly
+            u[10] = fma(hg_, r[11], r[10]);
+            u[11] = r[11];
+        }
     }
 
     /// How well u solves the five equations of r: the sum over them of |W u − b|/(|W||u| + |b|), a relative backward error in
@@ -109,9 +114,6 @@ template <class Real> struct SliderLinearisation {
         auto const stiff = squared > Real(0.0);
         return select(stiff, Real(0.5) * clamped(negated(sum)) / select(stiff, squared, Real(1.0)), Real(0.0));
     }
-
-protected:
-    Real hg_;
 
 private:
     SLIDEWAY_FN void add_masses() {
@@ -184,18 +186,9 @@ private:
         }
     }
 
+    Real hg_;
     Real matrix_[5][5];  // W = M − hγ D − (hγ)² K
     LuFactors<5, Real> factors_;
-};
-
-/// The same with x and vx, along which no contact is stiff: they follow explicitly.
-template <class Real> struct FreeSliderLinearisation : SliderLinearisation<Real> {
-    /// As that of the ten, of twelve.
-    SLIDEWAY_NOINLINE void solve(Real const* r, Real* u) const {
-        SliderLinearisation<Real>::solve(r, u);
-        u[10] = fma(this->hg_, r[11], r[10]);
-        u[11] = r[11];
-    }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

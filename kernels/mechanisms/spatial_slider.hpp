@@ -46,7 +46,69 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     template <bool Full, Extras has, class Real, class Laws>
     SLIDEWAY_NOINLINE static Faults<Real> derivative_with(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
                                                           Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
-        return evaluate<Full, has>(t, s, p, memory, block, rates, report);
+        constexpr bool loaded = has != Extras::nothing, profiled = has == Extras::profile;
+        auto faults = Faults<Real>::none();
+        DrivePlan drive;
+        if constexpr (loaded) drive = block.drive;
+        auto turning = SliderTurning<Real>::of(s);
+        PinState<Real, Base::size> const at(s, turning, p, may_be_offset && loaded && block.offset_slider);
+        typename Guide::template At<Real> guide(t, at.state, p, drive, faults);
+        auto const& way = p.joint.way;
+        Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+        if constexpr (loaded) at.leave_pin(position.x, velocity.x);
+        auto motion = seen<profiled>(block, turning, position, velocity, p);
+        Joint<Real, Laws, Full, decltype(motion)> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
+        auto wrench = joint.wrench(faults.contact_domain);
+        if constexpr (profiled) faults.geometry = faults.geometry | motion.has_left;
+        [[maybe_unused]] Real film_loss(0.0);
+        if constexpr (loaded) {
+            if (block.film) {
+                JointMotion<Real> oiled = motion;  // as Joint's own is not to lie in memory
+                auto const film = OilFilm<Real>::of(block.loads, p.load, oiled, p.joint.geometry);
+                wrench.force = wrench.force + film.wrench.force;
+                wrench.torque = wrench.torque + film.wrench.torque;
+                film_loss = film.loss;
+            }
+        }
+        auto force = to_inertial(block.misaligned_way, wrench.force, way);
+        [[maybe_unused]] SliderLoads<Real> loads;
+        if constexpr (loaded) {
+            loads = SliderLoads<Real>::template of<Full>(block.loads, t, crank_of<Guide>(t, s, p, drive), position, velocity, turning, p);
+            if constexpr (requires { guide.turn(loads.turning()); }) guide.turn(loads.turning());
+            force = force + loads.force;
+            wrench.torque = wrench.torque + from_slider(motion.axes, loads.torque);
+        }
+        PointMotion<Real> centre{position, velocity, {}};
+        [[maybe_unused]] typename OffsetSlider<Real>::Answer answer;
+        bool const is_offset = loaded && at.is_offset();
+        if constexpr (loaded && may_be_offset) {
+            if (is_offset) {
+                answer = at.offset.answer(guide, force, to_slider(motion.axes, wrench.torque), turning, p);
+                centre.acceleration = answer.hole;
+                turning.put_rates(answer.spin_up, rates);
+            }
+        }
+        if (!is_offset) {
+            centre.acceleration = guide.accelerations(force, p);
+            turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
+        }
+        rates[0] = velocity.y;
+        rates[1] = velocity.z;
+        rates[2] = centre.acceleration.y;
+        rates[3] = centre.acceleration.z;
+        guide.put_rates(centre.acceleration, rates);
+        if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
+        if constexpr (Full) {
+            if constexpr (loaded && may_be_offset) {
+                if (is_offset) at.offset.tell(guide, centre, answer, turning, p, block.powers_alone, *report);
+            }
+            if (!is_offset) guide.tell(centre, turning, force, p, block.powers_alone, *report);
+            if constexpr (loaded) {
+                loads.tell(drive, *report);
+                report->film_loss = film_loss;
+            }
+        }
+        return faults;
     }
 
     /// Linearises it about one state; the same arguments as the derivative.  NaN where that has a fault.
@@ -59,6 +121,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         typename Guide::template Constraint<Real> const guide(t, at.state, p, block.drive);
         guide.masses(p, out);
         out.inertia = p.inertia;
+        out.has_twelve = Base::size > state_size;
         if constexpr (may_be_offset) {
             if (at.is_offset()) out.template couple<is_free_along<Guide>>(at.offset, guide.slope(), turning, p);
         }
@@ -134,74 +197,6 @@ private:
         if constexpr (profiled) return motion_on_way(block, turning.axes, position, velocity, turning.spin, p);
         else return joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, p.joint.way);
     }
-    template <bool Full, Extras has, class Real, class Laws>
-    SLIDEWAY_FN static Faults<Real> evaluate(Real t, Real const* s, Numbers<Real> const& p, ContactMemory<Real> const& memory,
-                                             Conditions<Laws> const& block, Real* rates, SliderReport<Real>* report) {
-        constexpr bool loaded = has != Extras::nothing, profiled = has == Extras::profile;
-        auto faults = Faults<Real>::none();
-        DrivePlan drive;
-        if constexpr (loaded) drive = block.drive;
-        auto turning = SliderTurning<Real>::of(s);
-        PinState<Real, Base::size> const at(s, turning, p, may_be_offset && loaded && block.offset_slider);
-        typename Guide::template At<Real> guide(t, at.state, p, drive, faults);
-        auto const& way = p.joint.way;
-        Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
-        if constexpr (loaded) at.leave_pin(position.x, velocity.x);
-        auto motion = seen<profiled>(block, turning, position, velocity, p);
-        Joint<Real, Laws, Full, decltype(motion)> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
-        auto wrench = joint.wrench(faults.contact_domain);
-        if constexpr (profiled) faults.geometry = faults.geometry | motion.has_left;
-        [[maybe_unused]] Real film_loss(0.0);
-        if constexpr (loaded) {
-            if (block.film) {
-                JointMotion<Real> oiled = motion;  // as Joint's own is not to lie in memory
-                auto const film = OilFilm<Real>::of(block.loads, p.load, oiled, p.joint.geometry);
-                wrench.force = wrench.force + film.wrench.force;
-                wrench.torque = wrench.torque + film.wrench.torque;
-                film_loss = film.loss;
-            }
-        }
-        auto force = to_inertial(block.misaligned_way, wrench.force, way);
-        [[maybe_unused]] SliderLoads<Real> loads;
-        if constexpr (loaded) {
-            loads = SliderLoads<Real>::template of<Full>(block.loads, t, crank_of<Guide>(t, s, p, drive), position, velocity, turning, p);
-            if constexpr (requires { guide.turn(loads.turning()); }) guide.turn(loads.turning());
-            force = force + loads.force;
-            wrench.torque = wrench.torque + from_slider(motion.axes, loads.torque);
-        }
-        PointMotion<Real> centre{position, velocity, {}};
-        [[maybe_unused]] typename OffsetSlider<Real>::Answer answer;
-        bool const is_offset = loaded && at.is_offset();
-        if constexpr (loaded && may_be_offset) {
-            if (is_offset) {
-                answer = at.offset.answer(guide, force, to_slider(motion.axes, wrench.torque), turning, p);
-                centre.acceleration = answer.hole;
-                turning.put_rates(answer.spin_up, rates);
-            }
-        }
-        if (!is_offset) {
-            centre.acceleration = guide.accelerations(force, p);
-            turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
-        }
-        rates[0] = velocity.y;
-        rates[1] = velocity.z;
-        rates[2] = centre.acceleration.y;
-        rates[3] = centre.acceleration.z;
-        guide.put_rates(centre.acceleration, rates);
-        if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
-        if constexpr (Full) {
-            if constexpr (loaded && may_be_offset) {
-                if (is_offset) at.offset.tell(guide, centre, answer, turning, p, block.powers_alone, *report);
-            }
-            if (!is_offset) guide.tell(centre, turning, force, p, block.powers_alone, *report);
-            if constexpr (loaded) {
-                loads.tell(drive, *report);
-                report->film_loss = film_loss;
-            }
-        }
-        return faults;
-    }
-
     /// Where the slider is in its joint; without its motion.
     template <class Real, class Laws>
     SLIDEWAY_FN static ProfiledMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, Conditions<Laws> const& block) {

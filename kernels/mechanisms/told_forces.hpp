@@ -69,7 +69,7 @@ SLIDEWAY_NOINLINE void tell_forces(Real t, Real const* s, [[maybe_unused]] Real 
         auto loads = SliderLoads<Real>::none();
         Vec3<Real> ground{zero, zero, zero};
         if (block.loads.count > 0) {
-            loads = SliderLoads<Real>::template of<true>(block.loads, t, crank, position, velocity, turning, p);
+            loads = SliderLoads<Real>::template of<false>(block.loads, t, crank, position, velocity, turning, p);
             ground = ground_acceleration(block.loads, {crank.place, t, report.x, report.vx, crank.velocity}, p.load);
         }
         auto const acceleration_at = [&](Vec3<Real> const& place) {

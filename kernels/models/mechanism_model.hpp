@@ -39,7 +39,7 @@ template <class Mechanism, class Base> constexpr bool finds_state() {
         for (int i = 0; i < info.states; ++i) {
             if (Mechanism::state_of_series(static_cast<int>(info.state[i])) != i) return false;
         }
-        return info.states == Mechanism::size && Mechanism::size == Base::size;
+        return info.states == Mechanism::size && Mechanism::size <= Base::room;
     }
     return false;
 }

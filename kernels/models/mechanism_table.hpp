@@ -84,6 +84,7 @@ struct MechanismTable : Base, ForceLanes<Base, Signals>, ConditionsOfBlock<LawFu
     template <class Number> using Memory = typename LanesOf<Base>::template Memory<Number>;
     template <class Number> using Report = typename ForceLanes<Base, Signals>::template Report<Number>;
 
+    static constexpr int size = Base::room;
     Functions functions;
     typename Functions::Derivative *lean, *full;
 
@@ -91,6 +92,7 @@ struct MechanismTable : Base, ForceLanes<Base, Signals>, ConditionsOfBlock<LawFu
         : ConditionsOfBlock<LawFunctions<Real>>{{}, conditions}, functions(of_mechanism),
           lean(functions.lean[static_cast<int>(conditions.extras())]), full(functions.full[static_cast<int>(conditions.extras())]) {}
 
+    int states() const { return functions.state.count; }
     Parameters<double> parameters(Inputs const& inputs) const { return functions.parameters(inputs); }
     void scales(Parameters<double> const& p, double* scale) const { functions.state.scales(p, scale); }
     void initial_state(Inputs const& inputs, double* state) const { functions.state.start(inputs, state); }

@@ -53,7 +53,6 @@ template <class Base> struct SpatialLanes : ContactLanes<Base> {
 };
 
 template <> struct LanesOf<SliderBase> : SpatialLanes<SliderBase> {};
-template <> struct LanesOf<TwelveStateBase> : SpatialLanes<TwelveStateBase> {};
 
 /// What the lanes need of a mechanism that has signals of its own, or NoSignals.
 template <class Base, class Signals> struct SignalLanes : LanesOf<Base> {

@@ -33,6 +33,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     template <class Real> using Watch = JointWatch<Real>;
     template <class Real> using Observer = RigidObserver<Real, RigidSliderReport, true>;
     static constexpr bool sees_contacts = true, has_patterns = true;
+    static constexpr int size = Base::room;
 
     RigidConditions block;
     GuideFunctions<Number> const* guide;
@@ -42,6 +43,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
         : block{parts.friction, parts.misaligned_way, parts.offset_slider, parts.loads, parts.drive}, guide(guide), sloped_guide(sloped_guide) {}
 
     SLIDEWAY_HD bool has_loads() const { return block.loads.count > 0; }
+    int states() const { return guide->state.count; }
     RigidSliderParameters<double> parameters(Inputs const& in) const { return guide->parameters(in); }
     void scales(SliderParameters<double> const& p, double* scale) const { guide->state.scales(p, scale); }
     void initial_state(Inputs const& in, double* state) const { guide->state.start(in, state); }
@@ -116,13 +118,13 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
 
     /// Components of the state that are rates of the others, a bit each, and what the rates of those are.
     static constexpr unsigned rate_components = 0b1011'1000'1100;
-    template <class Real> SLIDEWAY_FN static void put_place_rates(Real const* s, RigidSliderParameters<Real> const& p, Real* rates) {
+    template <class Real> SLIDEWAY_FN void put_place_rates(Real const* s, RigidSliderParameters<Real> const& p, Real* rates) const {
         Real const zero(0.0);
         auto const turning = SliderTurning<Real>::of(s);
         rates[0] = s[2];
         rates[1] = s[3];
         turning.put_rates({zero, zero, zero}, turning.axes, p.inertia, p.inverse_inertia, rates);
-        if constexpr (Base::size > state_size) rates[10] = s[11];
+        if (states() > state_size) rates[10] = s[11];
     }
 
     /// Impulses of a step of time stepping on what touches in its middle (M13.16).
@@ -170,14 +172,14 @@ private:
     }
 
     /// @param at where the slider is, with the velocity that it had
-    template <class Real> SLIDEWAY_FN static void put_velocity(Mask<Real> in, JointPairs<Real> const& at, Twist<Real> const& velocity, Real* s) {
+    template <class Real> SLIDEWAY_FN void put_velocity(Mask<Real> in, JointPairs<Real> const& at, Twist<Real> const& velocity, Real* s) const {
         auto const put = [&](int i, Real value) { s[i] = select(in, value, s[i]); };
         put(2, velocity.linear.y);
         put(3, velocity.linear.z);
         put(7, velocity.angular.x);
         put(8, velocity.angular.y);
         put(9, velocity.angular.z);
-        if constexpr (Base::size > state_size) put(11, s[11] + at.rate_change(velocity - at.velocity));
+        if (states() > state_size) put(11, s[11] + at.rate_change(velocity - at.velocity));
     }
     template <class Real> SLIDEWAY_HD static void keep_loads(Mask<Real> in, ApexLoads<Real> const& from, ApexLoads<Real>& to) {
         for (int i = 0; i < pair_count; ++i) {

@@ -19,9 +19,10 @@ template <class Tableau_, int count> struct ExplicitPair {
     }
 
     /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
-    template <int s, int size, class Real>
-    SLIDEWAY_FN static void stage_state(Real const* y, Real const (*k)[size], Real h, Real* at) {
-        for (int i = 0; i < size; ++i) at[i] = stage_value<s>(y, k, h, i);
+    /// @param n components there are
+    template <int s, int room, class Real>
+    SLIDEWAY_FN static void stage_state(Real const* y, Real const (*k)[room], Real h, Real* at, int n = room) {
+        for (int i = 0; i < n; ++i) at[i] = stage_value<s>(y, k, h, i);
     }
     /// One component of it.
     template <int s, int size, class Real> SLIDEWAY_FN static Real stage_value(Real const* y, Real const (*k)[size], Real h, int i) {

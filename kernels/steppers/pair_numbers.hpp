@@ -50,46 +50,56 @@ struct PairNumbers {
     }
 
     /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
-    template <int size, class Real> SLIDEWAY_FN void stage_state(int s, Real const* y, Real const (*k)[size], Real h, Real* at) const {
-        Real sum[size];
-        combine(a[s], s, k, sum);
+    /// @param n components there are, of room for as many as `room`
+    template <int room, class Real> SLIDEWAY_FN void stage_state(int s, Real const* y, Real const (*k)[room], Real h, Real* at, int n = room) const {
+        Real sum[room];
+        combine(a[s], s, k, sum, n);
         Real const far = h * Real(reach[s]);
-        for (int i = 0; i < size; ++i) at[i] = fma(far, sum[i], y[i]);
+        for (int i = 0; i < n; ++i) at[i] = fma(far, sum[i], y[i]);
     }
 
     /// Σ_j w_j k_j of the first stages, the newest slope last, for the sum waits for it alone.
-    template <int size, class Real> SLIDEWAY_FN static void combine(double const* weights, int count, Real const (*k)[size], Real* sum) {
-        Real held[size];  // in registers
-        int j = 0;
-        while (j + 1 < count && weights[j] == 0) ++j;
-        for (int i = 0; i < size; ++i) held[i] = Real(weights[j]) * k[j][i];
-        for (++j; j < count; ++j) {
-            if (weights[j] == 0) continue;
-            for (int i = 0; i < size; ++i) held[i] = fma(Real(weights[j]), k[j][i], held[i]);
-        }
-        for (int i = 0; i < size; ++i) sum[i] = held[i];
+    template <int room, class Real> SLIDEWAY_FN static void combine(double const* weights, int count, Real const (*k)[room], Real* sum, int n = room) {
+        if (n == usual_states && room > usual_states) combine_of<usual_states>(weights, count, k, sum, usual_states);
+        else combine_of<room>(weights, count, k, sum, n);
     }
 
     /// The state inside the step, at fraction θ of it.
     /// @param k slopes, the continuous extension's included  @param y0, y1 the state at both ends
-    template <int size, class Real>
-    SLIDEWAY_FN void dense(Real const (*k)[size], Real const* y0, Real const* y1, Real h, Real theta, Real* state) const {
+    template <int room, class Real>
+    SLIDEWAY_FN void dense(Real const (*k)[room], Real const* y0, Real const* y1, Real h, Real theta, Real* state, int n = room) const {
         int const rows = stages + dense_stages;
         Real const rest = Real(1.0) - theta;
-        Real bend[size], sum[size];
-        if (bends > 0) combine(d[bends - 1], rows, k, bend);
-        for (int i = 0; i < size; ++i) bend[i] = bends > 0 ? h * bend[i] : Real(0.0);
+        Real bend[room], sum[room];
+        if (bends > 0) combine(d[bends - 1], rows, k, bend, n);
+        for (int i = 0; i < n; ++i) bend[i] = bends > 0 ? h * bend[i] : Real(0.0);
         for (int row = bends - 2; row >= 0; --row) {
-            combine(d[row], rows, k, sum);
-            for (int i = 0; i < size; ++i) bend[i] = fma(row % 2 == 0 ? theta : rest, bend[i], h * sum[i]);
+            combine(d[row], rows, k, sum, n);
+            for (int i = 0; i < n; ++i) bend[i] = fma(row % 2 == 0 ? theta : rest, bend[i], h * sum[i]);
         }
-        for (int i = 0; i < size; ++i) {
+        for (int i = 0; i < n; ++i) {
             Real const change = y1[i] - y0[i], first = k[0][i], last = k[stages - 1][i];
             // The cubic alone rounds the slopes too.
             Real const start = bends > 0 ? fms(h, first, change) : h * first - change;
             Real const end = (bends > 0 ? fnma(h, last, change) : change - h * last) - start;
             state[i] = fma(theta, fma(rest, fma(theta, fma(rest, bend[i], end), start), change), y0[i]);
         }
+    }
+
+private:
+    static constexpr int usual_states = 10;  // a slider's, for which sums have loops of constant length: they stay in registers
+
+    template <int most, int room, class Real>
+    SLIDEWAY_FN static void combine_of(double const* weights, int count, Real const (*k)[room], Real* sum, int n) {
+        Real held[most];
+        int j = 0;
+        while (j + 1 < count && weights[j] == 0) ++j;
+        for (int i = 0; i < n; ++i) held[i] = Real(weights[j]) * k[j][i];
+        for (++j; j < count; ++j) {
+            if (weights[j] == 0) continue;
+            for (int i = 0; i < n; ++i) held[i] = fma(Real(weights[j]), k[j][i], held[i]);
+        }
+        for (int i = 0; i < n; ++i) sum[i] = held[i];
     }
 };
 

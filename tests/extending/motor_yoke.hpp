@@ -20,7 +20,6 @@ template <class Real> struct MotorParameters : SliderParameters<Real> {
 struct MotorBase : SliderBase {
     static constexpr int size = 12;
     template <class Real> using Parameters = MotorParameters<Real>;
-    template <class Real> using Linearisation = FreeSliderLinearisation<Real>;  // θ and ω follow explicitly
 
     SLIDEWAY_HD static constexpr int state_of_series(int series) {
         if (series == static_cast<int>(Series::crank_angle)) return 10;

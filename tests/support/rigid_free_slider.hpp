@@ -7,7 +7,7 @@
 // As of kernels: units of other instruction sets have another.
 namespace slideway::inline SLIDEWAY_ISA {
 
-struct RigidFreeSlider : RigidSlider<double, TwelveStateBase> {
+struct RigidFreeSlider : RigidSlider<double, SliderBase> {
     explicit RigidFreeSlider(Parts const& parts) : RigidSlider(parts, &RigidGuide<NoDrive>::functions<double>) {}
     static void initial_state(Inputs const& in, double* state) { FreeSliderBase::initial_state(in, state); }
     static RigidSliderParameters<double> parameters(Inputs const& in) { return RigidGuide<NoDrive>::parameters(in); }

@@ -44,7 +44,7 @@ protected:
     }
     ~KernelModules() override { unsetenv("SLIDEWAY_MODULES"); }
 
-    static std::string name() { return fmt::format("slideway_rigid_TwelveStateBase_{}", name_of(compiled_isa(best_isa()))); }
+    static std::string name() { return fmt::format("slideway_rigid_SliderBase_{}", name_of(compiled_isa(best_isa()))); }
     static fs::path own() { return fs::path(tested_program).parent_path() / "kernels" / (name() + ".so"); }
     static std::string bytes(fs::path const& file) {
         std::ifstream in(file, std::ios::binary);

@@ -3,6 +3,7 @@
 #include "kernels/block.hpp"
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/lane_copy.hpp"
+#include "kernels/lanes/model.hpp"
 #include "kernels/mechanisms/planar_report.hpp"
 #include "kernels/real.hpp"
 #include "kernels/simd/expect.hpp"
@@ -56,6 +57,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
     telling.tell_forces(true);
     constexpr int width = lanes<Real>;
     constexpr int size = Model::size;
+    int const n = states_of(model);
     SLIDEWAY_EXPECT(table.rows == 0 || (table.inputs != nullptr && table.times != nullptr && table.results != nullptr));
     typename Model::template Parameters<Real> p;
     typename Model::template Report<Real> report;
@@ -73,13 +75,13 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             load_lane(p, i, of_row);
             double start[size];
             model.initial_state(table.inputs[row], start);
-            for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);
+            for (int j = 0; j < n; ++j) set_lane(state[j], i, start[j]);
         }
         auto const faults = telling.template derivative<true>(t, state, p, memory, rates, &report);
         for (int i = 0; i < width && first + i < table.rows; ++i) {
             auto& result = table.results[first + i];
             bool finite = true;
-            for (int j = 0; j < size; ++j) {
+            for (int j = 0; j < n; ++j) {
                 result.derivative[j] = lane(rates[j], i);
                 finite = finite && result.derivative[j] - result.derivative[j] == 0;
             }
