@@ -2,6 +2,9 @@
 // mechanism of one's own says itself what it has: `#define SLIDEWAY_MECHANISM OwnCrank`, and `#define SLIDEWAY_BASE OwnBase` where it is not SliderBase.
 #include "host/backend/cpu_lanes.hpp"
 #include "host/backend/kernel_tables.hpp"
+#ifdef SLIDEWAY_JOINT_IS_SHARED
+#include "host/backend/shared_joint.hpp"
+#endif
 #include "kernels/laws/law_table.hpp"
 #include "kernels/models/planar_lanes.hpp"
 #include SLIDEWAY_HEADER
@@ -10,6 +13,9 @@
 #endif
 
 namespace slideway::inline SLIDEWAY_ISA {
+#ifdef SLIDEWAY_JOINT_IS_SHARED
+SLIDEWAY_JOINT_TEMPLATES(extern)
+#endif
 namespace {
 
 template <class Mechanism> concept HasInfo = requires { MechanismInfo{Mechanism::info}; };

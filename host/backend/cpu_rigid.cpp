@@ -17,6 +17,8 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 // Of cpu_rigid_joint.cpp.
+extern template class JointPairs<IsaReal>;
+extern template class JointPairs<Tangent<IsaReal>>;
 extern template class RigidJoint<IsaReal>;
 extern template class RigidJoint<Tangent<IsaReal>>;
 extern template class JointOffset<IsaReal>;

@@ -6,6 +6,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+template class JointPairs<IsaReal>;
+template class JointPairs<Tangent<IsaReal>>;
 template class RigidJoint<IsaReal>;
 template class RigidJoint<Tangent<IsaReal>>;
 template class JointOffset<IsaReal>;

@@ -38,11 +38,18 @@ template <class Real> struct GuideFunctions {
     RigidSliderParameters<double> (*parameters)(Inputs);
     StateFunctions<SliderParameters<double>> state;
     bool is_free;  // nothing drives the slider, and it has no speed that slips are to be seen against
-    Derivative* lean;
+    Derivative* lean;  // none of numbers with slopes: those are of what the contacts report
     Derivative* full;
     JointPairs<Real> (*place)(Real, Real const*, Parameters const&, RigidConditions const&);
     Real (*along)(Real, Real const*, Axes<Real> const&, Parameters const&, RigidConditions const&);
 };
+
+/// What loads do, whatever guides the slider.
+template <bool with_powers, class Real>
+SLIDEWAY_NOINLINE SliderLoads<Real> told_loads(LoadList const& list, Real t, GivenMotion<Real> const& crank, Vec3<Real> const& place,
+                                               Vec3<Real> const& velocity, Real const* s, SliderParameters<Real> const& p) {
+    return SliderLoads<Real>::template of<with_powers>(list, t, crank, place, velocity, SliderTurning<Real>::of(s), p);
+}
 
 /// @tparam Guide what moves the slider along the way (kernels/mechanisms/spatial_slider.hpp)
 template <class Guide> struct RigidGuide {
@@ -136,7 +143,7 @@ template <class Guide> struct RigidGuide {
         if (block.loads.count == 0) return SliderLoads<Real>::none();
         Vec3<Real> place{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
         pin.leave_pin(place.x, velocity.x);
-        auto const loads = SliderLoads<Real>::template of<with_powers>(block.loads, t, crank_of<Guide>(t, s, p, block.drive), place, velocity, SliderTurning<Real>::of(s), p);
+        auto const loads = told_loads<with_powers>(block.loads, t, crank_of<Guide>(t, s, p, block.drive), place, velocity, s, p);
         if constexpr (requires { guide.turn(loads.turning()); }) guide.turn(loads.turning());
         return loads;
     }
@@ -146,8 +153,12 @@ template <class Guide> struct RigidGuide {
         return along_way<Guide>(t, s, lies, p, block.drive, is_offset(block));
     }
 
+    template <class Real> static constexpr typename GuideFunctions<Real>::Derivative* lean() {
+        if constexpr (is_tangent<Real>) return nullptr;
+        else return &derivative<false, Real>;
+    }
     template <class Real>
-    static constexpr GuideFunctions<Real> functions{&parameters, StateFunctions<SliderParameters<double>>::of<typename Guide::Base>(), is_free_along<Guide>, &derivative<false, Real>, &derivative<true, Real>, &place<Real>, &along<Real>};
+    static constexpr GuideFunctions<Real> functions{&parameters, StateFunctions<SliderParameters<double>>::of<typename Guide::Base>(), is_free_along<Guide>, lean<Real>(), &derivative<true, Real>, &place<Real>, &along<Real>};
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

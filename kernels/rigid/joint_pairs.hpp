@@ -23,20 +23,12 @@ template <class Real> struct JointPair {
     Real bias;                       // γ' of a slider that keeps its velocity [m/s²]
 };
 
-/// A slider with a rigid joint in one state: its pairs, and how it answers to impulses there.  What guides it is numbers.
+/// A slider with a rigid joint in one state: its pairs, and how it answers to impulses there.  What guides it is numbers.  Compiled once per instruction
+/// set, as a RigidJoint is.
 template <class Real> class JointPairs {
 public:
     /// @param x, vx of the centre along the nominal way  @param s state of the slider, of which y z vy vz φ ϑ ψ ωx ωy ωz are looked at
-    SLIDEWAY_FN JointPairs(GuidedCentre<Real> const& centre, Real x, Real vx, Real const* s, SliderParameters<Real> const& p, bool misaligned)
-        : centre(centre),
-          x(x),
-          turning(SliderTurning<Real>::of(s)),
-          motion(joint_motion(misaligned, turning.axes, Vec3<Real>{x, s[0], s[1]}, Vec3<Real>{vx, s[2], s[3]}, turning.spin, p.joint.way)),
-          velocity{{vx, s[2], s[3]}, turning.omega},
-          load_force_{Real(0.0), Real(0.0), Real(0.0)},
-          load_torque_(load_force_),
-          p_(p),
-          misaligned_(misaligned) {}
+    SLIDEWAY_NOINLINE JointPairs(GuidedCentre<Real> const& centre, Real x, Real vx, Real const* s, SliderParameters<Real> const& p, bool misaligned);
 
     GuidedCentre<Real> centre;
     Real x;  // [m]
@@ -217,5 +209,17 @@ private:
     SliderParameters<Real> const& p_;
     bool const misaligned_;
 };
+
+template <class Real>
+SLIDEWAY_HD JointPairs<Real>::JointPairs(GuidedCentre<Real> const& of_guide, Real along, Real vx, Real const* s, SliderParameters<Real> const& p, bool misaligned)
+    : centre(of_guide),
+      x(along),
+      turning(SliderTurning<Real>::of(s)),
+      motion(joint_motion(misaligned, turning.axes, Vec3<Real>{x, s[0], s[1]}, Vec3<Real>{vx, s[2], s[3]}, turning.spin, p.joint.way)),
+      velocity{{vx, s[2], s[3]}, turning.omega},
+      load_force_{Real(0.0), Real(0.0), Real(0.0)},
+      load_torque_(load_force_),
+      p_(p),
+      misaligned_(misaligned) {}
 
 }  // namespace slideway::inline SLIDEWAY_ISA
