@@ -88,6 +88,8 @@ Json of_exponents(ResultReader const& results) {
                         {"members_undecided", one.undecided},
                         {"members_power_of_time", one.power_of_time}});
     }
+    // Of the largest alone.
+    if (auto const turn = growth_per_turn(results); turn && !list.empty()) list.front()["per_turn"] = of_mean(*turn);
     return list;
 }
 

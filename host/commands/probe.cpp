@@ -148,8 +148,12 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
     if (selects(has.series, Series::face_force_y_plus)) print_forces(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
-    print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping{}", result.power_crank, result.power_friction,
-                                     result.power_damping, table.has_loads ? fmt::format(", {:.10g} W loads", result.power_load) : ""));
+    std::string powers = fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank, result.power_friction, result.power_damping);
+    for (LoadPower const& power : load_powers) {
+        double const value = result.*power.value;
+        if (table.has_loads && (value != 0 || power.value == &ProbeResult::power_load)) powers += fmt::format(", {:.10g} W {}", value, power.label);
+    }
+    print_field("power", powers);
     if (selects(has.series, Series::crank_torque)) {
         std::string_view const weight = has.spatial ? "without the crank's own weight" : "the crank's own weight included";
         print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));

@@ -17,7 +17,7 @@ namespace {
 /// What every result or table of `probe` may have, beside keys, quantities and series.
 constexpr char const* of_results[] = {
     "member", "member_label", "sample", "status", "time", "end_time", "steps_accepted", "steps_rejected", "rhs_evaluations",
-    "jacobian_evaluations", "stiff_steps", "t", "power_crank", "power_friction", "power_damping", "power_load", "energy", "contact_potential"};
+    "jacobian_evaluations", "stiff_steps", "t", "power_crank", "power_friction", "power_damping", "power_load", "power_ground", "loss_springs", "loss_film", "energy", "contact_potential"};
 
 /// What results call a key that varies.
 std::string parameter_name(Key const& key) {

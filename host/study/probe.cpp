@@ -26,9 +26,8 @@ void forget_forces(ProbeResult& result) {
     auto const forget = [](auto& values) { std::ranges::fill(values, nan); };
     forget(result.derivative), forget(result.normal_force_y), forget(result.normal_force_z), forget(result.forces), forget(result.signals);
     result.surfaces = result.lines = result.points = 0;
-    for (double* const value : {&result.power_crank, &result.power_friction, &result.power_damping, &result.power_load, &result.contact_potential,
-                                &result.crank_torque})
-        *value = nan;
+    for (double* const value : {&result.power_crank, &result.power_friction, &result.power_damping, &result.contact_potential, &result.crank_torque}) *value = nan;
+    for (LoadPower const& power : load_powers) result.*power.value = nan;
 }
 
 }  // namespace
@@ -69,7 +68,9 @@ std::vector<std::pair<std::string, double>> result_columns(StateTable const& tab
     columns.emplace_back("power_crank", result.power_crank);
     columns.emplace_back("power_friction", result.power_friction);
     columns.emplace_back("power_damping", result.power_damping);
-    if (table.has_loads) columns.emplace_back("power_load", result.power_load);
+    if (table.has_loads) {
+        for (LoadPower const& power : load_powers) columns.emplace_back(power.name, result.*power.value);
+    }
     int const places = has.spatial ? 8 : 4;
     auto const add_places = [&](std::string_view prefix, double const(&values)[8]) {
         for (int i = 0; i < places; ++i) columns.emplace_back(fmt::format("{}{}", prefix, i + 1), values[i]);

@@ -126,7 +126,7 @@ private:
             }
             roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;
             roster_[seat].pattern = static_cast<std::uint32_t>(lane(pattern_, i));
-            roster_[seat].time = lane(c.t, i);
+            roster_[seat].share = results_.share(pack_.state, i);
         }
     }
 
@@ -147,12 +147,7 @@ private:
 
     /// Counts the time that a member has covered in this stint; all that was left to it if it has ended.
     SLIDEWAY_HD void count_covered(int seat, int i) {
-        double const before = roster_[seat].time, end = lane(pack_.state.constants.end, i);
-        if (holds(pack_.busy, i)) {
-            covered_ += (lane(pack_.state.course.t, i) - before) / end;
-        } else {
-            covered_ += before > 0 ? 1 - before / end : 1;
-        }
+        covered_ += (holds(pack_.busy, i) ? results_.share(pack_.state, i) : 1) - roster_[seat].share;
     }
 
     /// One stint.

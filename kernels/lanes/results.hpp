@@ -34,6 +34,14 @@ public:
         return (by_turns() ? turned(s, state) : t) >= s.constants.first_stop;
     }
 
+    /// How far the member in a lane is on its way, from 0 to 1.
+    template <class Real> SLIDEWAY_HD double share(MemberState<Model, Real> const& s, int i) const {
+        double const stops = static_cast<double>(block_.stops.count);
+        if (!by_turns()) return lane(s.course.t, i) / max(lane(s.constants.end, i), 1e-300);
+        double const last = stops > 0 ? fma(stops - 1, lane(s.constants.stop_period, i), lane(s.constants.first_stop, i)) : lane(s.constants.turns, i);
+        return min(abs(lane(s.course.y[crank], i) - lane(s.constants.start_angle, i)) / last, 1.0);
+    }
+
     /// The states of members at a stop, if it is one of their sections.
     template <class Real> SLIDEWAY_HD void take_section(Pack<Model, Real> const& pack, Mask<Real> at) {
         StopPlan const& plan = block_.stops;

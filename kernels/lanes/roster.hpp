@@ -18,7 +18,7 @@ public:
     struct Seat {
         Kind kind = Kind::none;
         std::uint32_t pattern = 0;  // apex–face pairs that touch, or of rigid ones those that last and those that stick, a bit each
-        double time = 0;            // how far the member is
+        double share = 0;           // how far the member is on its way, from 0 to 1
     };
 
     SLIDEWAY_HD Seat& operator[](int i) { return seat_[i]; }
@@ -63,7 +63,7 @@ private:
         for (int i = 0; i < seats; ++i) {
             auto const kind = static_cast<int>(seat_[i].kind);
             if (kind == 0 || (counts[kind] < width && kind != most)) continue;
-            if (leader < 0 || seat_[i].time < seat_[leader].time) leader = i;
+            if (leader < 0 || seat_[i].share < seat_[leader].share) leader = i;
         }
         return leader;
     }

@@ -122,6 +122,18 @@ TEST_F(Probe, OfLoadsIsAtTheTimeOfTheState) {
     EXPECT_EQ(run({"probe", "s.toml"}).out.find("W loads"), std::string::npos);
 }
 
+/// A dashpot between the slider and the way takes c vx², and says so beside what else acts.
+TEST_F(Probe, TellsWhatDampersTake) {
+    write("s.toml", "schema = 1\n[mechanism]\nkind = \"free_slider\"\n[spring.dashpot]\nanchor_x = 1\ndamping = 3\n[initial]\nx = 0.1\nvx = 2\n");
+    Outcome const outcome = run({"probe", "s.toml", "-o", "o.csv", "--force"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    auto const table = golden::Table::read(path("o.csv"));
+    EXPECT_NEAR(table.number(0, "loss_springs"), 12, 1e-12);
+    for (char const* const none : {"power_load", "power_ground", "loss_film"}) EXPECT_EQ(table.number(0, none), 0) << none;
+    Outcome const listing = run({"probe", "s.toml"});
+    EXPECT_NE(listing.out.find("0 W loads, 12 W taken by springs"), std::string::npos) << listing.out;
+}
+
 TEST_F(Probe, NamesTheCellThatIsWrong) {
     std::string const header = "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz\n";
     write("cell.csv", header + "0,0,0,0,0,0,0,0,0,0,abc\n");
