@@ -298,6 +298,21 @@ Key const& key_of(Load const& load, LoadNumber const& number, int place) {
     return at->second;
 }
 
+/// Slope that the profiles up to one give the steepest of its faces, at most.
+double steepest_of_faces(Inputs const& in, LoadList const& loads, int last) {
+    double steepest = 0;
+    for (int face = 0; face < 4; ++face) {
+        double sum = 0;
+        for (int i = 0; i <= last && (loads.loads[last].faces >> face & 1) != 0; ++i) {
+            Load const& load = loads.loads[i];
+            if (load.kind != LoadKind::way_profile || (load.faces >> face & 1) == 0) continue;
+            sum += load.steepest * (load.scale == Load::none ? 1 : in.*load_inputs[load.scale]);
+        }
+        if (!(sum <= steepest)) steepest = sum;
+    }
+    return steepest;
+}
+
 /// Numbers of loads are of the scene, and in no table of keys.
 std::optional<Defect> defect_of_loads(Inputs const& in, LoadList const& loads) {
     for (int i = 0; i < loads.count; ++i) {
@@ -308,11 +323,12 @@ std::optional<Defect> defect_of_loads(Inputs const& in, LoadList const& loads) {
             double const value = in.*load_inputs[place];
             if (auto problem = broken_rule(number.key({}, place), value)) return Defect{&key_of(load, number, place), nullptr, value, *std::move(problem)};
         }
-        if (load.kind == LoadKind::way_profile && load.scale != Load::none) {
-            double const scale = in.*load_inputs[load.scale], steepest = scale * load.steepest;
+        if (load.kind == LoadKind::way_profile) {
+            double const scale = load.scale == Load::none ? 1 : in.*load_inputs[load.scale], steepest = steepest_of_faces(in, loads, i);
             if (!(steepest <= most_profile_slope))
                 return Defect{&key_of(load, *find_load_number(LoadKind::way_profile, "scale"), load.scale), nullptr, scale,
-                              {fmt::format("the profile then has a slope of {:.3g}", steepest), fmt::format("contacts are reckoned with slopes up to {}", most_profile_slope)}};
+                              {fmt::format("its faces then have a slope of {:.3g}", steepest),
+                               fmt::format("contacts are reckoned with slopes up to {}; smooth the table, or check its units", most_profile_slope)}};
         }
         if (load.kind != LoadKind::way_ends || load.from == Load::none || load.to == Load::none || in.*load_inputs[load.from] < in.*load_inputs[load.to]) continue;
         Key const& end = key_of(load, *find_load_number(LoadKind::way_ends, "to"), load.to);

@@ -241,11 +241,7 @@ private:
         given_.row.table.interpolation = static_cast<Interpolation>(choice("interpolation", smooth_interpolation_names));
         given_.row.table.column = read_text_value(*node_.find("column"));
         read_file(file, *node_.find("column"), argument_of_x, repeats != nullptr && read_boolean(*repeats), depth_units);
-        Node const* const scale = node_.find("scale");
         given_.load.steepest = given_.row.table.function->steepest();
-        double const steepest = given_.load.steepest * (scale == nullptr ? 1 : read_number(*scale, "1"));
-        if (!(steepest <= most_profile_slope))
-            refuse(file, {fmt::format("the profile has a slope of {:.3g}", steepest), fmt::format("contacts are reckoned with slopes up to {}; smooth the table, or check its units", most_profile_slope)});
     }
 
     void read_ends() {

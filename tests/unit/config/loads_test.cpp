@@ -250,8 +250,8 @@ TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
              Bad{hollow, "interpolation = \"linear\"\n", "way_profile.wear.interpolation is \"linear\""},
              Bad{hollow, "over = \"time\"\n", "way_profile.wear.over is no key of a profile of the way"},
              Bad{hollow, "scale = -1\n", "way_profile.wear.scale is -1"},
-             Bad{hollow, "scale = 100\n", "the profile has a slope of"},
-             Bad{"x, depth\n0, 0\n0.05, 20\n0.1, 0\n", "", "the profile has a slope of"},
+             Bad{hollow, "scale = 100\n", "its faces then have a slope of"},
+             Bad{"x, depth\n0, 0\n0.05, 20\n0.1, 0\n", "", "its faces then have a slope of"},
              Bad{"x, depth [um]\n0, 0\n0.05, -1\n0.1, 0\n", "", "p.csv:3: depth is -1e-06 m (a profile lies back"},
              Bad{"x, depth [kg]\n0, 0\n1, 1\n", "", "its unit is none of m"},
              Bad{"time, depth\n0, 0\n1, 1\n", "", "the table has no column x"},
@@ -268,12 +268,18 @@ TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
     expect_refused("schema = 1\n[way_ends]\n", "way_ends.to is missing");
     expect_refused("schema = 1\n[way_ends]\nfrom = 0.2\nto = 0.2\n", "way_ends.to is 0.2 m (the way ends where it begins");
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n", "a way without ends");
+    // Slopes of profiles of the same faces add up.
+    auto const two = [&](std::string const& faces) {
+        return worn(hollow, "scale = 30\nfaces = \"y\"\n[way_profile.more]\ntable = \"" + file(hollow) + "\"\ncolumn = \"depth\"\nscale = 30\nfaces = \"" + faces + "\"\n");
+    };
+    EXPECT_EQ(scene_of(two("z")).parts.loads.count, 2);
+    expect_refused(two("all"), "way_profile.more.scale is 30 (its faces then have a slope of 0.0");
     // Drawn numbers keep their rules, too.
     Inputs drawn = scene.inputs;
     drawn.*load_inputs[profile.scale] = -1;
     EXPECT_TRUE(contains(defect(drawn, scene.parts).value_or(""), "way_profile.wear.scale is -1"));
     drawn.*load_inputs[profile.scale] = 1e4;
-    EXPECT_TRUE(contains(defect(drawn, scene.parts).value_or(""), "way_profile.wear.scale is 10000 (the profile then has a slope of"));
+    EXPECT_TRUE(contains(defect(drawn, scene.parts).value_or(""), "way_profile.wear.scale is 10000 (its faces then have a slope of"));
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[film]\nviscosity = 0.1\nleast_gap = 1e-6\n", "between straight faces without ends");
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[mechanism]\nkind = \"planar_slider_crank\"\n", "way_ends");
 }
