@@ -70,7 +70,8 @@ void write_law(fmt::ostream& out, Law law, std::vector<Row> const& rows) {
         }
         int members = 0;  // of one method
         for (Row const* row : own) members += row->method == own.front()->method ? row->outcome.members : 0;
-        out.print("| {} | {:.3g} … {:.3g} | {} |", axis->name, axis->points.front().value, axis->points.back().value, members);
+        auto const unit = axis->unit.empty() ? std::string() : fmt::format(" [{}]", axis->unit);
+        out.print("| {}{} | {:.3g} … {:.3g} | {} |", axis->title, unit, axis->points.front().value, axis->points.back().value, members);
         for (Method const method : columns) out.print(" {} |", cell(own, method, conserving));
         out.print(" {} |\n", step_cell(own));
     }
