@@ -1,6 +1,6 @@
 """What rigid members save in studies of compliant ones: slideway.control_variate on the crosshead of docs/study.md and on scenes/rigid_starts.toml.
 
-Usage: control_variates.py [-o TABLE.md]; needs the slideway package.  Under two minutes on one core.  512 compliant members, 2,048 rigid ones at rtol 1e-4,
+Usage: control_variates.py [-o TABLE.csv]; needs the slideway package.  Under two minutes on one core.  512 compliant members, 2,048 rigid ones at rtol 1e-4,
 the same draws.  Gains are those of the best division between both (docs/tolerance.md): compliant members alone that give as short an interval, over
 what the members of both kinds cost.  Beside them those of a quadratic in the inputs alone, which costs nothing.
 """
@@ -8,6 +8,7 @@ what the members of both kinds cost.  Beside them those of a quadratic in the in
 from __future__ import annotations
 
 import argparse
+import csv
 import math
 import pathlib
 import sys
@@ -61,7 +62,7 @@ def best_gain(correlation: float, ratio: float) -> float:
     return 1 / (math.sqrt(1 - correlation**2) + correlation * math.sqrt(ratio)) ** 2
 
 
-def rows(name: str, compliant: pathlib.Path, rigid: pathlib.Path, keys: Mapping[str, Any], yields: bool) -> list[str]:
+def rows(name: str, compliant: pathlib.Path, rigid: pathlib.Path, keys: Mapping[str, Any], yields: bool) -> list[list[str]]:
     """One of each quantity."""
     costly, seconds = run(compliant, keys, few)
     cheap, cheap_seconds = run(rigid, {**keys, "contact.law": "rigid", "integrator.rtol": 1e-4, "integrator.atol": 1e-4}, many)
@@ -75,16 +76,16 @@ def rows(name: str, compliant: pathlib.Path, rigid: pathlib.Path, keys: Mapping[
         if 0.01 < float(values.mean()) < 0.99 or not quantity.startswith("yield"):
             rho = slideway.control_variate(values, others).correlation
             free = slideway.control_variate(values, inputs).correlation
-            made.append(f"| {name} | 1/{1 / ratio:.0f} | {quantity} | {rho:.4f} | {best_gain(rho, ratio):.1f} | {1 / (1 - free**2):.1f} |")
+            made.append([name, f"1/{1 / ratio:.0f}", quantity, f"{rho:.4f}", f"{best_gain(rho, ratio):.1f}", f"{1 / (1 - free**2):.1f}"])
     return made
 
 
 def main() -> None:
     """All studies, as a table."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("-o", "--output", type=pathlib.Path, help="the table, in Markdown")
+    parser.add_argument("-o", "--output", type=pathlib.Path, help="the table, as CSV")
     options = parser.parse_args()
-    table = ["| study | cost of a rigid member | quantity | correlation | gain | gain by the inputs alone |", "|---|---|---|---|---|---|"]
+    table = [["study", "cost_of_a_rigid_member", "quantity", "correlation", "gain", "gain_by_inputs_alone"]]
     crosshead = root / "scenes/crosshead.toml"
     for fit in (fits[0], fits[2], fits[3]):
         table += rows(fit.name, crosshead, crosshead, {'study.vary."joint.clearance_y"': fit.clearance()}, True)
@@ -93,9 +94,10 @@ def main() -> None:
         compliant = pathlib.Path(folder) / "compliant.toml"
         compliant.write_text(starts.read_text(encoding="utf-8").replace('law = "rigid"\n', ""), encoding="utf-8")
         table += rows("rigid_starts", compliant, starts, scatter, False)
-    print("\n".join(table))
+    csv.writer(sys.stdout, lineterminator="\n").writerows(table)
     if options.output:
-        options.output.write_text("\n".join(table) + "\n", encoding="utf-8")
+        with options.output.open("w", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(table)
 
 
 if __name__ == "__main__":

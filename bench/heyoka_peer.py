@@ -1,7 +1,7 @@
 """heyoka (Taylor series compiled by LLVM, batches as wide as the processor) beside slideway, both on one core and in turn.
 
 Usage: heyoka_peer.py WORK_PRECISION [-o OUTPUT], with the program bench/work_precision of a release build; needs heyoka and numpy from
-PyPI and a C compiler.  Writes OUTPUT.md and OUTPUT.csv, whose columns are those of work_precision.csv.  Members, times, errors and what
+PyPI and a C compiler.  Writes OUTPUT.md and OUTPUT.csv, whose first columns are those of work_precision.csv.  Members, times, errors and what
 counts as exact are those of `work_precision`; relief valve: events a second while 16 valves bounce.
 """
 
@@ -153,44 +153,58 @@ def times_at(rows: list[Row], error: float) -> float:
     return float(min(found, default=np.nan))
 
 
-def section(problem: Problem, rows: list[Row]) -> str:
-    text = f"\n## {problem.words}\n\nAt equal median error, the best method of each, by straight lines in the logarithms; "
-    text += "where the coarsest tolerance does better, its time:\n\n"
-    text += "| error | slideway, µs a member |" + "".join(f" {method}, µs | times |" for method in problem.models) + "\n|---|---|"
-    text += "---|---|" * len(problem.models) + "\n"
+head = "problem,method,code,tolerance,median_error,p95_error,error_unit,seconds_per_member,least_seconds,most_seconds,events_per_second"
+errors_shown = (1e-6, 1e-9, 1e-10, 1e-11, 1e-12)  # of the last three the finest that both reach
+
+
+def compared(problem: Problem, rows: list[Row]) -> str:
+    """Rows of the page: both at equal median error, the best method of each."""
+    text = ""
     ours = [row for row in rows if row.method not in problem.models]
-    for error in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13):
-        mine = times_at(ours, error)
-        theirs = [times_at([row for row in rows if row.method == method], error) for method in problem.models]
-        if error > max(row.median for row in rows) or np.isnan(mine) or np.isnan(theirs).all():
-            continue
-        text += f"| {error:.0e} | {mine:.2f} |"
-        text += "".join(" — | — |" if np.isnan(t) else f" {t:.2f} | {t / mine:.2f} |" for t in theirs) + "\n"
-    text += "\n| | tolerance | error, median | p95 | µs a member | least … most |\n|---|---|---|---|---|---|\n"
-    for row in rows:
-        spread = f"{1e6 * min(row.seconds):.2f} … {1e6 * max(row.seconds):.2f}"
-        text += f"| {row.method}, {row.code} | {row.tolerance:.0e} | {row.median:.1e} | {row.p95:.1e} | {row.microseconds:.2f} | {spread} |\n"
+    for method in problem.models:
+        found, words = [], problem.words if method == "heyoka" else f"{problem.words}; {method}"
+        for error in errors_shown:
+            mine, theirs = times_at(ours, error), times_at([row for row in rows if row.method == method], error)
+            if not np.isnan([mine, theirs]).any():
+                found.append(f"| {words} | {error:.0e} | {mine:.2f} | {theirs:.2f} | {theirs / mine:.2f} |\n")
+        text += "".join([*found[:2], *found[2:][-1:]])
     return text
 
 
-def valve_section(program: pathlib.Path, rounds: int) -> str:
-    text = "\n## Relief valve\n\n| | tolerance | largest error | events a second |\n|---|---|---|---|\n"
+def line(*fields: str) -> str:
+    return ",".join(f'"{field}"' if "," in field else field for field in fields) + "\n"
+
+
+def lines_of(problem: Problem, rows: list[Row]) -> str:
+    """Of the CSV."""
+    text = ""
+    for r in rows:
+        times = [f"{t:.4e}" for t in (1e-6 * r.microseconds, min(r.seconds), max(r.seconds))]
+        text += line(problem.name, r.method, r.code, f"{r.tolerance:.0e}", f"{r.median:.3e}", f"{r.p95:.3e}", "1", *times, "")
+    return text
+
+
+def valves(program: pathlib.Path, rounds: int) -> tuple[str, str]:
+    """Rows of the page and lines of the CSV.  heyoka's error is the largest of its valves, slideway's that of 95 % of those of work_precision."""
     best = Valves(1e-15).last_lifts()
-    valves = {tolerance: Valves(tolerance) for tolerance in (1e-6, 1e-9)}
+    theirs = {tolerance: Valves(tolerance) for tolerance in (1e-6, 1e-9)}
     rates, ours = collections.defaultdict(list), collections.defaultdict(list)
     for _ in range(rounds):
         with tempfile.TemporaryDirectory() as folder:
             for row in our_rows(program, "relief_valve", "dop853,dopri5", folder):
-                ours[row["method"], row["code"], row["tolerance"], row["p95_error"]].append(recorded_events / float(row["seconds_per_member"]))
-        for tolerance, valve in valves.items():
+                key = row["method"], row["code"], row["tolerance"], float(row["p95_error"])
+                ours[key].append(recorded_events / float(row["seconds_per_member"]))
+        for tolerance, valve in theirs.items():
             start = time.process_time()
             rates[tolerance].append(valve.run() / (time.process_time() - start))
-    for tolerance, valve in valves.items():
-        error = np.abs(valve.last_lifts() - best).max()
-        text += f"| heyoka, batch of {lanes} | {tolerance:.0e} | {error:.0e} | {np.median(rates[tolerance]):.3g} |\n"
-    for (method, code, tolerance, error), found in ours.items():
-        text += f"| {method}, {code} | {tolerance} | {float(error):.0e} | {np.median(found):.3g} |\n"
-    return text
+    found = [("heyoka", f"batch of {lanes}", f"{t:.0e}", float(np.abs(v.last_lifts() - best).max()), float(np.median(rates[t]))) for t, v in theirs.items()]
+    found += [(*key, float(np.median(rate))) for key, rate in ours.items()]
+    page = ""
+    for _, _, tolerance, error, rate in found[: len(theirs)]:
+        fastest = max((one for one in found[len(theirs) :] if one[3] <= 1.05 * error), key=lambda one: one[4])
+        page += f"| {tolerance} | {error:.0e} | {rate:.3g} | {fastest[0]}, {fastest[2]}: {fastest[3]:.0e} | {fastest[4]:.3g} | {fastest[4] / rate:.1f} |\n"
+    table = "".join(line("relief_valve", m, c, t, "", f"{e:.0e}", "1", "", "", "", f"{r:.3g}") for m, c, t, e, r in found)
+    return page, table
 
 
 def main() -> None:
@@ -201,19 +215,26 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     arguments = parser.parse_args()
     said = provenance(arguments.program)
-    text = f"# heyoka beside slideway, one core\n\nMedians of {arguments.rounds} rounds, both in turn in each.\n\n"
-    text += "".join(f"- {line}\n" for line in said)
-    table = "".join(f"# {line}\n" for line in said) + "problem,method,code,tolerance,median_error,p95_error,error_unit,seconds_per_member\n"
+    text = f"""# heyoka beside slideway, one core
+
+Medians of {arguments.rounds} rounds, both in turn in each, by `bench/heyoka_peer.py`. Microseconds of a member at equal median error, of the best method of each,
+by straight lines in the logarithms; where the coarsest tolerance does better, its time. All rows, with the scatter of the rounds:
+[{arguments.output.name if arguments.output else "heyoka"}.csv]({arguments.output.name if arguments.output else "heyoka"}.csv).
+
+"""
+    text += "".join(f"- {one}\n" for one in said if not one.startswith("date"))
+    text += "\n| problem | error | slideway, µs | heyoka, µs | times |\n|---|---|---|---|---|\n"
+    table = "".join(f"# {one}\n" for one in said) + head + "\n"
     for problem in problems:
         if arguments.problem not in problem.name:
             continue
         rows = measured(arguments.program, problem, arguments.rounds)
-        text += section(problem, rows)
-        for r in rows:
-            method = f'"{r.method}"' if "," in r.method else r.method
-            table += f"{problem.name},{method},{r.code},{r.tolerance:.0e},{r.median:.3e},{r.p95:.3e},1,{1e-6 * r.microseconds:.4e}\n"
+        text += compared(problem, rows)
+        table += lines_of(problem, rows)
     if arguments.problem in "relief_valve":
-        text += valve_section(arguments.program, arguments.rounds)
+        page, of_valves = valves(arguments.program, arguments.rounds)
+        table += of_valves
+        text += "\nRelief valve, events a second:\n\n| heyoka, tolerance | error | events/s | slideway with no larger error | events/s | times |\n|---|---|---|---|---|---|\n" + page
     if arguments.output:
         arguments.output.with_suffix(".md").write_text(text)
         arguments.output.with_suffix(".csv").write_text(table)

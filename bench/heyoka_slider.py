@@ -1,6 +1,6 @@
 """heyoka beside slideway on a free slider: in flight, and bouncing between the faces of its way on linear springs.
 
-Usage: heyoka_slider.py [-o TABLE.md]; needs heyoka and numpy from PyPI and the slideway package.  One core, medians of processor time, both in
+Usage: heyoka_slider.py [-o TABLE.csv]; needs heyoka and numpy from PyPI and the slideway package.  One core, medians of processor time, both in
 one run.  Flight: attitude and translation of a tumbling slider, whose equations are written here again from docs/model.md; errors are
 against heyoka at 1e-18 in 80 bits, so that they compare the two programs too.  Bouncing: no spin, no friction, no damping, so that the motion is a row of
 parabolas and sines, which is the reference; heyoka's touches are terminal events whose callback, in Python, turns the spring on and off.
@@ -10,6 +10,8 @@ parabolas and sines, which is the reference; heyoka's touches are terminal event
 from __future__ import annotations
 
 import argparse
+import csv
+import io
 import math
 import pathlib
 import time
@@ -224,11 +226,8 @@ def bouncing(start: Start) -> tuple[list[Row], float]:
     return rows, float(np.mean([end[2] for end in closed]))
 
 
-def table(rows: list[Row]) -> str:
-    text = "| | tolerance | median error | p95 | µs a member |\n|---|---|---|---|---|\n"
-    for row in rows:
-        text += f"| {row.who} | {row.tolerance:.0e} | {row.error:.1e} | {row.worst:.1e} | {row.microseconds:.2f} |\n"
-    return text
+def table(problem: str, rows: list[Row]) -> list[list[str]]:
+    return [[problem, row.who, f"{row.tolerance:.0e}", f"{row.error:.1e}", f"{row.worst:.1e}", f"{row.microseconds:.2f}"] for row in rows]
 
 
 def main() -> None:
@@ -236,10 +235,13 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=pathlib.Path)
     arguments = parser.parse_args()
     start = starts()
-    text = f"# heyoka {hy.__version__} beside slideway {slideway.__version__} on a free slider, {members} members, one core\n\n"
-    text += f"## Tumbling in flight, {1e3 * flight_end:.0f} ms: states\n" + table(flight(start))
+    lines = [["problem", "method", "tolerance", "median_error", "p95_error", "us_per_member"]]
+    lines += table(f"Tumbling in flight, {1e3 * flight_end:.0f} ms: states", flight(start))
     rows, touches = bouncing(start)
-    text += f"\n## Bouncing on linear springs, {1e3 * bounce_end:.0f} ms, {touches:.1f} touches a member: height, in clearances\n" + table(rows)
+    lines += table(f"Bouncing on linear springs, {1e3 * bounce_end:.0f} ms, {touches:.1f} touches a member: height, in clearances", rows)
+    made = io.StringIO()
+    csv.writer(made, lineterminator="\n").writerows(lines)
+    text = f"# heyoka {hy.__version__} beside slideway {slideway.__version__} on a free slider, {members} members, one core\n" + made.getvalue()
     if arguments.output:
         arguments.output.write_text(text)
     print(text, end="")

@@ -1,6 +1,6 @@
 """MuJoCo, Drake and Siconos beside slideway's rigid contacts: the planar slider-crank of scenes/planar_rigid.toml, flat and without friction.
 
-Usage: rigid_peers.py [-o TABLE.md]; needs drake and mujoco from PyPI and the slideway package, and python3-siconos of Debian, without which its
+Usage: rigid_peers.py [-o TABLE.csv]; needs drake and mujoco from PyPI and the slideway package, and python3-siconos of Debian, without which its
 rows are left out.  One core; all in one run, medians of processor time.
 The reference is slideway at rtol 1e-12, which is within 2e-9 clearances of an 80-bit program that goes from event to event (docs/rigid.md).
 MuJoCo and Drake have no coefficient of restitution: their contacts are springs and dampers, made here to return e = 0.4 and as stiff as some
@@ -11,6 +11,7 @@ have the box.  Errors are of the slider's height, in clearances, over 50 ms.
 from __future__ import annotations
 
 import argparse
+import csv
 import importlib.util
 import pathlib
 import time
@@ -44,15 +45,15 @@ def by_slideway(tolerance: float, count: int) -> tuple[np.ndarray, float]:
 def main() -> None:
     """All, as a table."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("-o", "--output", type=pathlib.Path, help="the table, in Markdown")
+    parser.add_argument("-o", "--output", type=pathlib.Path, help="the table, as CSV")
     options = parser.parse_args()
     reference, _ = by_slideway(1e-12, 1)
-    rows = ["| program | contacts | step, accuracy or rtol | mean error, clearances | largest | members a second and core |", "|---|---|---|---|---|---|"]
+    rows = [["program", "contacts", "step_accuracy_or_rtol", "mean_error_clearances", "largest_error_clearances", "members_per_s_and_core"]]
 
     def add(who: str, contacts: str, setting: float, heights: np.ndarray, seconds: float) -> None:
         errors = np.abs(heights - reference) / clearance
-        rows.append(f"| {who} | {contacts} | {setting:.0e} | {errors.mean():.1e} | {errors.max():.1e} | {1 / seconds:,.1f} |")
-        print(rows[-1], flush=True)
+        rows.append([who, contacts, f"{setting:.0e}", f"{errors.mean():.1e}", f"{errors.max():.1e}", f"{1 / seconds:.1f}"])
+        print(*rows[-1], sep="; ", flush=True)
 
     for step, impact_steps in rigid_mujoco.settings:
         contacts = f"springs, {impact_steps} steps an impact"
@@ -68,7 +69,8 @@ def main() -> None:
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
         add("slideway", "rigid", tolerance, by_slideway(tolerance, 1)[0], by_slideway(tolerance, members)[1])
     if options.output:
-        options.output.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        with options.output.open("w", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(rows)
 
 
 if __name__ == "__main__":

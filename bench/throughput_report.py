@@ -3,12 +3,13 @@
 
 usage: bench/throughput_report.py RESULTS.json OUTDIR
 
-Writes OUTDIR/throughput.md, a row for what was measured with the rate of each instruction set and of the peer and the ratio of the
+Prints a table and writes OUTDIR/throughput.csv, a row for what was measured with the rate of each instruction set and of the peer and the ratio of the
 widest to `scalar`, and OUTDIR/throughput.svg, these ratios as bars.  Times are medians of the repetitions.
 """
 
 from __future__ import annotations
 
+import csv
 import json
 import statistics
 import sys
@@ -57,20 +58,18 @@ def rows_of(results: dict) -> list[Row]:
 
 def machine_lines(context: dict) -> list[str]:
     told = [key for key in context if key in ("cpu", "compiler", "commit") or key.startswith("flags, ")]
-    return [f"- {key}: {context[key]}" for key in told] + [f"- date: {context['date']}", f"- load: {context.get('load_avg', [])}"]
+    return [f"{key}: {context[key]}" for key in told] + [f"date: {context['date']}", f"load: {context.get('load_avg', [])}"]
 
 
-def table_of(results: dict, rows: list[Row]) -> str:
+def table_of(rows: list[Row]) -> list[list[str]]:
+    """Its head and a line for each row."""
     names = list(dict.fromkeys(name for row in rows for name in row.rates))
-    lines = ["# Throughput", "", *machine_lines(results["context"]), "", "Medians of interleaved repetitions; one thread unless a row says two.",
-             "`peak: multiply_add` is what the units of this machine can do: with 512 bits four times as much as scalar code on Zen 4, whose units",
-             "have 256.", ""]
-    lines += ["| | " + " | ".join(["rate", *names, "widest over scalar", "over Odeint"]) + " |", "|---" * (len(names) + 4) + "|"]
+    lines = [["what", "rate", *names, "widest_over_scalar", "over_odeint"]]
     for row in rows:
         numbers = [f"{row.rates[name]:.3g}" if name in row.rates else "" for name in names]
         ratios = [f"{ratio:.2f}" if ratio else "" for ratio in (row.ratio("scalar"), row.ratio("odeint"))]
-        lines.append("| " + " | ".join([f"{row.group}: {row.what}", row.rate, *numbers, *ratios]) + " |")
-    return "\n".join(lines) + "\n"
+        lines.append([f"{row.group}: {row.what}", row.rate, *numbers, *ratios])
+    return lines
 
 
 def draw(rows: list[Row], file: Path) -> None:
@@ -105,11 +104,15 @@ def main() -> int:
         print(f"throughput_report.py: {sys.argv[1]} has no rates", file=sys.stderr)
         return 1
     folder = Path(sys.argv[2])
-    table = table_of(results, rows)
-    (folder / "throughput.md").write_text(table)
+    table = table_of(rows)
+    with (folder / "throughput.csv").open("w", encoding="utf-8", newline="") as file:
+        for line in ("Throughput", *machine_lines(results["context"]), "Medians of interleaved repetitions; one thread unless a row says two."):
+            file.write(f"# {line}\n")
+        csv.writer(file, lineterminator="\n").writerows(table)
     if any(row.ratio("scalar") for row in rows):
         draw(rows, folder / "throughput.svg")
-    print(table)
+    for line in table:
+        print("| " + " | ".join(line) + " |")
     return 0
 
 

@@ -29,12 +29,9 @@ flags=$(grep -m 1 "SLIDEWAY_ISA=cuda " "$build/compile_commands.json" | tr " " "
 - flags: ${flags% }
 - \`scripts/cuda_registers.sh\`, from the reports of \`ptxas -v\` that the build leaves beside its objects (\`cuda.cu.o.ptxas\`)
 
-Assembled, not run. Bytes per thread; of spills, what all instructions of a function store / load, each counted once however often it
-runs. A kernel's stack frame is the deepest chain of calls, with the lane program, the shadows and what is spilled; no other function
-has a frame, for ptxas shares out the registers between caller and callee. Where functions are called through pointers, or a unit has
-too many of them, it follows the calling convention instead and saves half of the registers (the test \`CudaRegisters.AreAsKnown\`).
-One kernel integrates members and one members with shadows; each has all laws and dampings, friction and misaligned ways. 0 where
-nothing is spilled, – where there is no such function.
+Assembled, not run. Bytes per thread; spills: what a function stores / loads, each instruction counted once; 0: nothing, –: no such function. A kernel's
+stack frame is the deepest chain of calls; no other function has a frame, unless functions are called through pointers or a unit has too many (the test
+\`CudaRegisters.AreAsKnown\`). One kernel integrates members, one members with shadows.
 
 EOF
     awk -F'\t' '
@@ -91,10 +88,8 @@ EOF
             kernel_row("registers", registers)
             kernel_row("stack frame", frame)
             row("spills of the kernel itself", "kernel")
-            heading("\n## Equations\n\nThe hot path is the lean derivative, which the explicit methods evaluate three (bs32) to six " \
-                    "(dopri5) times a step. The full one also fills the report: at the ends of steps or stages, for quantities and " \
-                    "events. The linearisation is the stiff method\x27s. Of the faces of two axes, and of all laws and dampings, " \
-                    "those that spill most.", "function")
+            heading("\n## Equations\n\nThe hot path is the lean derivative, three to six times a step. The full one also fills the report. " \
+                    "Of faces, laws and dampings, those that spill most.", "function")
             row("lean derivative", "lean derivative")
             row("its faces", "lean faces")
             row("its laws", "lean law")

@@ -93,10 +93,10 @@ std::vector<Axis> axes(Law law, bool quick) {
     auto const list = [&](std::vector<double> values) { return thinned(std::move(values), quick); };
     std::vector<Axis> all;
 
-    all.push_back(of_inputs("young_modulus", "Young's modulus of both bodies", "Pa",
+    all.push_back(of_inputs("young_modulus", "Young's modulus", "Pa",
                             list({1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13}), standard,
                             [](Inputs& in, double value) { in.slider_young_modulus = in.way_young_modulus = value; }));
-    Axis clearances{"clearance", "Clearance per side", "m", false, {}};
+    Axis clearances{"clearance", "Clearance", "m", false, {}};
     for (double const value : list({1e-6, 1e-5, 1e-4, 5e-4, 5e-3})) {
         auto setting = standard;
         setting.clearance = value;
@@ -110,23 +110,23 @@ std::vector<Axis> axes(Law law, bool quick) {
         speeds.points.push_back(setting.point(value));
     }
     all.push_back(std::move(speeds));
-    all.push_back(of_inputs("eta", "Damping ratio η of point contacts, χ = 0", "", list({0, 1e-3, 1e-2, 0.1, 1}),
+    all.push_back(of_inputs("eta", "η (χ = 0)", "", list({0, 1e-3, 1e-2, 0.1, 1}),
                             standard, [](Inputs& in, double value) {
                                 in.eta = value;
                                 in.chi_line = in.chi_surface = 0;
                             }));
-    all.push_back(of_inputs("chi", "Dissipation χ of line and surface contacts, η = 0.01", "s/m",
+    all.push_back(of_inputs("chi", "χ (η = 0.01)", "s/m",
                             list({0, 1, 10, 100, 1000}), standard,
                             [](Inputs& in, double value) { in.chi_line = in.chi_surface = value; }));
-    all.push_back(of_inputs("restitution", "Coefficient of restitution, which replaces η and χ", "",
+    all.push_back(of_inputs("restitution", "Restitution", "",
                             list({0.05, 0.2, 0.4, 0.7, 1}), restituting,
                             [](Inputs& in, double value) { in.restitution = value; }));
     std::vector<double> const tolerances = list({1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11});
     std::vector<double> const steps = list({0.1, 0.2, 0.5, 0.7, 1, 1.4, 2, 4, 8});
-    all.push_back(of_tolerances("tolerance", "Tolerance, falling start", tolerances, standard));
-    all.push_back(of_tolerances("tolerance_lying", "Tolerance, lying start", tolerances, lying));
-    all.push_back(of_steps("step", "Fixed step over the linear limit 2√2/Ω, falling start", steps, standard));
-    all.push_back(of_steps("step_lying", "Fixed step over the linear limit 2√2/Ω, lying start", steps, lying));
+    all.push_back(of_tolerances("tolerance", "Tolerance, falling", tolerances, standard));
+    all.push_back(of_tolerances("tolerance_lying", "Tolerance, lying", tolerances, lying));
+    all.push_back(of_steps("step", "Step over 2√2/Ω, falling", steps, standard));
+    all.push_back(of_steps("step_lying", "Step over 2√2/Ω, lying", steps, lying));
     return all;
 }
 

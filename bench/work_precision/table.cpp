@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "host/backend/backend.hpp"
@@ -14,13 +13,8 @@
 namespace slideway::bench {
 namespace {
 
-std::string processor() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    }
-    return "unknown";
-}
+/// A field of the CSV: "slideway dopri5, located" has a comma.
+std::string field(std::string const& text) { return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text); }
 
 char const* unit(Problem const& problem) { return problem.measure == Measure::energy ? "J" : "1"; }
 
@@ -29,66 +23,36 @@ std::string number_or_dash(double value, char const* format = "{:.3g}") {
     return std::isnan(value) ? "—" : fmt::format(fmt::runtime(format), value);
 }
 
-/// Decades of p95 error that at least one method reaches, coarsest first.
-std::vector<double> targets(std::vector<Row> const& rows) {
-    double low = std::numeric_limits<double>::infinity(), high = 0;
+constexpr double largest_error = 0.1;  // beyond it nothing is compared
+
+/// Coarsest, middle and finest tolerance of slideway's auto, or of dopri5 where there is no auto, whose error means something.
+std::vector<Row const*> telling_rows(std::vector<Row> const& rows) {
+    std::string_view const automatic = "slideway auto";
+    bool const has_auto = std::ranges::any_of(rows, [&](Row const& r) { return r.method == automatic; });
+    std::vector<Row const*> all;
     for (auto const& row : rows) {
-        if (!std::isfinite(row.p95_error) || row.p95_error <= 0) continue;
-        low = std::min(low, row.p95_error);
-        high = std::max(high, row.p95_error);
+        bool const ours = row.method == (has_auto ? automatic : "slideway dopri5") && row.code == name_of(best_isa());
+        if (ours && row.p95_error <= largest_error) all.push_back(&row);
     }
-    std::vector<double> found;
-    for (int i = static_cast<int>(std::floor(std::log10(high))); std::pow(10.0, i) >= low && found.size() < 9; --i) {
-        found.push_back(std::pow(10.0, i));
-    }
-    return found;
+    if (all.size() <= 3) return all;
+    return {all.front(), all[all.size() / 2], all.back()};
 }
 
-void write_rates(fmt::ostream& out, std::vector<Row> const& rows) {
-    auto const levels = targets(rows);
+/// Rates of these rows over those of others at the same p95 error.
+void write_ratios(fmt::ostream& out, std::vector<Result> const& results) {
     out.print(
-        "\nMembers per second and core at equal p95 error (interpolated between tolerances; — where not reached):\n\n");
-    out.print("| method | code |");
-    for (double const level : levels) out.print(" {:.0e} |", level);
-    out.print("\n|---|---|{}\n", [&] {
-        std::string dashes;
-        for (std::size_t i = 0; i < levels.size(); ++i) dashes += "---|";
-        return dashes;
-    }());
-    Row const* before = nullptr;
-    for (auto const& row : rows) {
-        if (before && before->method == row.method && before->code == row.code) continue;
-        before = &row;
-        out.print("| {} | {} |", row.method, row.code);
-        for (double const level : levels) {
-            double const time = time_to_reach(level, rows, row.method, row.code);
-            out.print(" {} |", number_or_dash(1 / time));
+        "\n## Beside the best of others\n\nMembers per second and core of slideway's `auto`, {} (`dopri5` where a problem has no `auto`), and over those "
+        "of the best scalar method of slideway, of CVODE and of Odeint at the same p95 error; — where none reaches it.\n\n"
+        "| problem | tolerance | error, p95 | members/s | over scalar | CVODE | Odeint |\n|---|---|---|---|---|---|---|\n",
+        name_of(best_isa()));
+    for (auto const& [problem, rows] : results) {
+        for (Row const* row : telling_rows(rows)) {
+            auto const ratio = [&](std::string_view family) {
+                return number_or_dash(least_cost(row->p95_error, rows, family, "scalar", &Row::seconds) / row->seconds);
+            };
+            out.print("| {} | {:.0e} | {:.1e} | {:.3g} | {} | {} | {} |\n", problem.name, row->tolerance, row->p95_error, 1 / row->seconds,
+                      ratio("slideway"), ratio("CVODE"), ratio("Odeint"));
         }
-        out.print("\n");
-    }
-}
-
-/// What slideway's auto stands for at the errors that it reaches, against others at the same p95 error.
-void write_ratios(fmt::ostream& out, std::vector<Row> const& rows) {
-    bool const has_auto = std::ranges::any_of(rows, [](Row const& r) { return r.method == "slideway auto"; });
-    if (!has_auto) return;
-    auto const best = std::string(name_of(best_isa()));
-    out.print(
-        "\nslideway auto, {}, against others at its own p95 error: members per second and core, times theirs.\n\n",
-        best);
-    out.print(
-        "| tolerance | error, p95 | members/s | slideway, best scalar | CVODE, best | Odeint, best | evaluations | "
-        "fewer than slideway "
-        "dopri5 |\n|---|---|---|---|---|---|---|---|\n");
-    for (auto const& row : rows) {
-        if (row.method != "slideway auto" || row.code != best || !std::isfinite(row.p95_error)) continue;
-        auto const ratio = [&](std::string_view family, std::string_view code) {
-            return number_or_dash(least_cost(row.p95_error, rows, family, code, &Row::seconds) / row.seconds);
-        };
-        double const evaluations = least_cost(row.p95_error, rows, "slideway dopri5", best, &Row::evaluations);
-        out.print("| {:.0e} | {:.1e} | {:.3g} | {} | {} | {} | {:.0f} | {} |\n", row.tolerance, row.p95_error,
-                  1 / row.seconds, ratio("slideway", "scalar"), ratio("CVODE", "scalar"), ratio("Odeint", "scalar"),
-                  row.evaluations, number_or_dash(evaluations / row.evaluations));
     }
 }
 
@@ -139,7 +103,7 @@ void write_promises(fmt::ostream& out, std::vector<Result> const& results) {
 
 std::vector<std::string> provenance() {
     std::vector<std::string> lines = {
-        fmt::format("processor: {}, one core", processor()), fmt::format("compiler: {}", build_info().compiler),
+        fmt::format("processor: {}, one core", machine_name()), fmt::format("compiler: {}", build_info().compiler),
         fmt::format("commit: {}", build_info().commit), fmt::format("date: {}", creation_time()),
         fmt::format("peers: {}; CVODE: {}", SLIDEWAY_PEER_FLAGS, SLIDEWAY_CVODE_BUILD)};
     for (Isa const isa : {Isa::scalar, best_isa()}) {
@@ -157,7 +121,7 @@ void write_csv(std::filesystem::path const& file, std::vector<Result> const& res
     for (auto const& [problem, rows] : results) {
         for (auto const& r : rows) {
             out.print("{},{},{},{:.0e},{},{},{},{:.3e},{:.3e},{},{:.4e},{:.1f},{:.4e},{:.4e},{:.1e}\n", problem.name,
-                      r.method, r.code, r.tolerance, r.ensemble, r.members, r.failures, r.median_error, r.p95_error,
+                      field(r.method), r.code, r.tolerance, r.ensemble, r.members, r.failures, r.median_error, r.p95_error,
                       unit(problem), r.seconds, r.evaluations, r.friction_loss, r.damping_loss,
                       problem.reference_difference);
         }
@@ -166,42 +130,22 @@ void write_csv(std::filesystem::path const& file, std::vector<Result> const& res
 
 void write_markdown(std::filesystem::path const& file, std::vector<Result> const& results) {
     auto out = fmt::output_file(file.string());
-    out.print("# Work and precision\n\n");
-    for (auto const& line : provenance()) out.print("- {}\n", line);
     out.print(
-        "\nError: states, root mean square over the components of |y − reference|/(scale + |reference|) at the end "
-        "time, when no "
-        "member touches the way; energies, |ε| in joules (`docs/model.md` 8).  Percentiles over members; a member that "
-        "failed counts "
-        "as infinite.  Time: of the processor, in the run whose error is shown, the energy audit included where "
-        "energies are "
-        "measured, divided by "
-        "the members of the ensemble; slideway runs it as one block, the peers one member after the other.  "
-        "Evaluations: of "
-        "the right-hand side; an analytic Jacobian counts as one.\n");
+        "# Work and precision\n\n"
+        "Time of slideway's methods and their peers for an error, on one core ({}; commit {}). All rows, flags, compiler: "
+        "[work_precision.csv](work_precision.csv). To repeat: `scripts/work_precision.sh`. Problems, references, settings: "
+        "[bench/work_precision](../work_precision/README.md).\n\n"
+        "Error of *states*: root mean square over the components of |y − reference|/(scale + |reference|) at the end time, when no member touches "
+        "the way. Error of *energy*: |ε| in joules ([model](../../docs/model.md#8-energy-audit)). p95: 95 % of the members, of which a failed one "
+        "counts as infinite. Time: of the processor, in the run whose error is shown, the energy audit included where energies are measured, "
+        "divided by the members. slideway takes the ensemble as one block, the peers one member after the other. An analytic Jacobian counts as "
+        "one evaluation.\n",
+        machine_name(), build_info().commit);
     write_promises(out, results);
-    for (auto const& [problem, rows] : results) {
-        bool const energy = problem.measure == Measure::energy;
-        out.print("\n## {}\n\n{} members, of which errors and evaluations of the first {} count.", problem.title,
-                  problem.size(), problem.shared);
-        if (problem.measure == Measure::state)
-            out.print("  Two references differ by {:.1e} at most.", problem.reference_difference);
-        out.print("\n");
-        write_ratios(out, rows);
-        write_rates(out, rows);
-        out.print(
-            "\n| method | code | tolerance | ensemble | members | failed | error, median | error, p95 | ms per member "
-            "| "
-            "evaluations |{}\n",
-            energy ? " D_f, median [J] | D_d, median [J] |" : "");
-        out.print("|---|---|---|---|---|---|---|---|---|---|{}\n", energy ? "---|---|" : "");
-        for (auto const& r : rows) {
-            out.print("| {} | {} | {:.0e} | {} | {} | {} | {:.1e} | {:.1e} | {:.4g} | {:.0f} |", r.method, r.code,
-                      r.tolerance, r.ensemble, r.members, r.failures, r.median_error, r.p95_error, 1e3 * r.seconds,
-                      r.evaluations);
-            if (energy) out.print(" {:.3e} | {:.3e} |", r.friction_loss, r.damping_loss);
-            out.print("\n");
-        }
+    write_ratios(out, results);
+    out.print("\n## Error against time\n\nA line for each method; p95 solid, median dashed.\n");
+    for (auto const& result : results) {
+        out.print("\n![{}]({}.svg)\n", result.problem.title, result.problem.name);
     }
 }
 

@@ -19,7 +19,7 @@ struct Result {
 
 /// All rows of all problems, provenance as comments above.
 void write_csv(std::filesystem::path const& file, std::vector<Result> const& results);
-/// Per problem: the rows, and members per second at equal p95 error.
+/// What is promised, rates beside the best of others at equal p95 error, and the plots.
 void write_markdown(std::filesystem::path const& file, std::vector<Result> const& results);
 
 }  // namespace slideway::bench
