@@ -92,7 +92,7 @@ public:
         template <class Stepper>
         SLIDEWAY_HD Real share_of(Pack<Model, Real> const& pack, Stepper const& stepper, Attempt<Model, Real> const& attempt, Real wanted,
                                   Mask<Real> due) const {
-            Real share = select(due, way.share_at(wanted), Real(0.0)), state[Model::size];
+            Real share = select(due, way.share_at(wanted), Real(0.0)), state[Model::size] = {};
             for (int i = 0; i < 3; ++i) {
                 stepper.dense(pack.start(), attempt, share, state);
                 Real const ahead = wanted - abs(state[angle] - pack.state.constants.start_angle), moved = share + ahead / way.slope(share);
