@@ -12,7 +12,7 @@ import slideway
 from . import picture
 from .machines import carriage, press
 from .page import Found, page
-from .runs import alone, by_fit, fits, halved, loosest, middle, misaligned, pump, shares, verdicts, worn
+from .runs import alone, by_fit, halved, loosest, middle, misaligned, pump, shares, verdicts, worn
 
 
 def study(root: Path, fewer: int) -> Found:
