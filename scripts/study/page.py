@@ -176,12 +176,12 @@ def page(root: Path, found: Found) -> str:
     heights = [lifting(root, one.interpolation) for one in found.carriages]
     return f"""# Worked studies: the crosshead of a pump, a press, a carriage
 
-Three machines and a question each. `scripts/study.sh` runs the studies and writes this page; a test holds them against closed forms.
+`scripts/study.sh` runs the studies and writes this page; a test holds them against closed forms.
 
 ## Which fit for the crosshead of a pump?
 A crosshead guides the rod of a pump. A crank of 30 mm drives this one, 25 mm high, at 600 rpm against the pressure that an indicator has recorded over a turn
 (`scenes/crosshead.toml`): 29 bar on a plunger of 25 mm, {hydraulic_work:.0f} J of hydraulic work. Per turn it may lose {100 * pump.friction_limit / hydraulic_work:.0f} % of that to friction ({pump.friction_limit:.2f} J)
-and a ten thousandth in impacts ({1e3 * pump.impact_limit:.1f} mJ; above it the pump is heard). Which fit should the drawing give, and which tolerance is worth its price?
+and a ten thousandth in impacts ({1e3 * pump.impact_limit:.1f} mJ; above it the pump is heard).
 The limits of the fit (ISO 286-1, 18 to 30 mm) are three standard deviations of the clearance. Friction is 0.08 with a standard deviation of 0.01, restitution
 0.4 to 0.7; speed scatters by 1 %, pressure by 2 %.
 
@@ -198,8 +198,8 @@ The cost per good part is that of making all ({", ".join(f"{fit.name} {fit.cost:
 number of good ones. These prices are assumptions (`scripts/study/runs.py`, `page.py`). With them **{best.name}** is
 the cheapest, with any impact limit from {1e3 * least:.1f} to {1e3 * most:.1f} mJ.
 
-- Impacts take energy that grows with the clearance to the power {growth:.2f}; a side force that rises steadily gives 4/3.
-- Friction takes μ ∫ |N| dx, N being the side force without clearance. The fit does not matter to it.
+- Impacts take energy that grows with the clearance to the power {growth:.2f} (a steadily rising side force: 4/3). Friction takes μ ∫ |N| dx, N being the side
+  force without clearance: the fit does not matter to it.
 - Rigid and compliant contacts agree on the mean energy of impacts within {100 * apart:.0f} %, the rigid ones with {fewer:.0f} times fewer right-hand sides.
 - The side force, {side:.0f} N at most, is the peak force in a tight fit. In {fits[3].name} impacts exceed it, and by how much the stiffness of the corners decides.
 
@@ -233,7 +233,7 @@ Wedged members lose more than five times the median in impacts, or fail.
 
 ![Side force and wear over the slider's way; lean of the slider over a turn for three depths](pictures/study_worn.svg)
 
-- Misalignment costs nothing until some sliders do not fit, which medians do not show. Friction ({quantile(rigid[2].friction, 0.5):.3f} J in the plane) feels neither it nor wear.
+- Misalignment costs nothing until some sliders do not fit. Friction ({quantile(rigid[2].friction, 0.5):.3f} J) feels neither it nor wear.
 - The worn way's slider leans, which the plunger's seal has to bear; with {deepest.value:g} µm impacts take {np.median(deepest.impacts) / np.median(new.impacts):.1f} times as much as on a new way.
 - Peak forces are largest between flat new faces, which meet all at once: they tell stiffness, not health.
 
@@ -245,11 +245,11 @@ in 99 % of {enough.before.size} presses? The closed form is the energy of the pr
 |---|---|---|---|---|---|
 {press_table(root, found.presses)}
 
-**{enough.inertia:g} kg m²** are enough. The heavier wheel takes the peaks off the motor, hardly its heat: the mean torque is what the strokes ask for.
+**{enough.inertia:g} kg m²** are enough. The heavier wheel takes the peaks off the motor, hardly its heat.
 
 ## How tall a tool?
-The carriage of [jobs](jobs.md#carriage-on-a-measured-profile), 40 mm long, carries a mass above the way. As it speeds up and brakes, its weight must hold both
-ends down. The profile has 17 measured rows, and the acceleration depends on what stands between them:
+The carriage of [jobs](jobs.md#carriage-on-a-measured-profile), 40 mm long, carries a mass above the way; its weight must hold both ends down as it speeds
+up and brakes. The profile has 17 measured rows, and the acceleration depends on what stands between them:
 
 | `interpolation` | peak acceleration, m/s² | an end lifts above, mm, by moments | in the runs, in steps of 5 mm |
 |---|---|---|---|
