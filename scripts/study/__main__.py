@@ -12,7 +12,7 @@ import slideway
 from . import picture
 from .machines import carriage, press
 from .page import Found, page
-from .runs import alone, by_fit, fits, halved, loosest, middle, misaligned, outcome, pump, shares, verdicts, worn
+from .runs import alone, by_fit, halved, loosest, middle, misaligned, pump, shares, verdicts, worn
 
 
 def study(root: Path, fewer: int) -> Found:
@@ -24,8 +24,6 @@ def study(root: Path, fewer: int) -> Found:
         tightened=[halved(root, pump, fit, 4000 // fewer) for fit in (loosest, middle)],
         parts=shares(root, pump, loosest, 1024 // fewer),
         before=by_fit(root, alone, True, 2000 // fewer),
-        before_compliant=outcome(root, alone, {"joint.clearance_y": middle.clearance()}, False, 512 // fewer),
-        before_tightened=halved(root, alone, middle, 2000 // fewer),
         space=[misaligned(root, angle, 128 // fewer) for angle in (0.1, 0.2, 0.4)],
         worn=[worn(root, depth, 128 // fewer) for depth in (10, 40, 80)],
         presses=[press(root, inertia, 256 // fewer) for inertia in (0.3, 0.5, 0.8, 1.1)],
