@@ -1,7 +1,7 @@
-"""What rigid members save in studies of compliant ones: slideway.control_variate on the crosshead of docs/study.md and on scenes/rigid_starts.toml.
+"""What rigid members save in studies of compliant ones: slideway.control_variate on the crosshead of docs/tutorial/study.md and on scenes/rigid_starts.toml.
 
 Usage: control_variates.py [-o TABLE.csv]; needs the slideway package.  Under two minutes on one core.  512 compliant members, 2,048 rigid ones at rtol 1e-4,
-the same draws.  Gains are those of the best division between both (docs/tolerance.md): compliant members alone that give as short an interval, over
+the same draws.  Gains are those of the best division between both (docs/how_to/tolerance.md): compliant members alone that give as short an interval, over
 what the members of both kinds cost.  Beside them those of a quadratic in the inputs alone, which costs nothing.
 """
 

@@ -1,7 +1,7 @@
 """heyoka beside slideway on a free slider: in flight, and bouncing between the faces of its way on linear springs.
 
 Usage: heyoka_slider.py [-o TABLE.csv]; needs heyoka and numpy from PyPI and the slideway package.  One core, medians of processor time, both in
-one run.  Flight: attitude and translation of a tumbling slider, whose equations are written here again from docs/model.md; errors are
+one run.  Flight: attitude and translation of a tumbling slider, whose equations are written here again from docs/explanation/model.md; errors are
 against heyoka at 1e-18 in 80 bits, so that they compare the two programs too.  Bouncing: no spin, no friction, no damping, so that the motion is a row of
 parabolas and sines, which is the reference; heyoka's touches are terminal events whose callback, in Python, turns the spring on and off.
 (Springs with a kink, by `relu`, need no events, but Taylor steps go over them unseen: errors of 50 clearances at any tolerance.)

@@ -1,4 +1,4 @@
-"""The free slider in heyoka: tumbling in flight, and rattling on linear springs.  The equations are those of docs/model.md (M1.1), (M1.2),
+"""The free slider in heyoka: tumbling in flight, and rattling on linear springs.  The equations are those of docs/explanation/model.md (M1.1), (M1.2),
 (M3.2), (M4.11), (M4.13), (M6.6), (M7.1) and (M7.4), written for heyoka."""
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Usage: rigid_peers.py [-o TABLE.csv]; needs drake and mujoco from PyPI and the slideway package, and python3-siconos of Debian, without which its
 rows are left out.  One core; all in one run, medians of processor time.
-The reference is slideway at rtol 1e-12, which is within 2e-9 clearances of an 80-bit program that goes from event to event (docs/rigid.md).
+The reference is slideway at rtol 1e-12, which is within 2e-9 clearances of an 80-bit program that goes from event to event (docs/how_to/rigid.md).
 MuJoCo and Drake have no coefficient of restitution: their contacts are springs and dampers, made here to return e = 0.4 and as stiff as some
 steps an impact resolve.  Both have spheres at the block's corners, because each of their boxes touches a plane in its own way; Drake's pressure fields
 have the box.  Errors are of the slider's height, in clearances, over 50 ms.

@@ -14,10 +14,10 @@ namespace slideway {
 /// Marks an input that was not given and follows from others (members/complete_inputs.hpp fills it).
 inline constexpr double follows = std::numeric_limits<double>::quiet_NaN();
 
-/// What moves the slider (docs/model.md 6, 7): a row of mechanisms/list.hpp, or one that a module brought, which have places behind those.
+/// What moves the slider (model.md 6, 7): a row of mechanisms/list.hpp, or one that a module brought, which have places behind those.
 enum class Mechanism : int;
 
-/// How contacts push (docs/model.md 4), where they are not rigid: a row of laws/list.hpp, or one that a module brought.
+/// How contacts push (model.md 4), where they are not rigid: a row of laws/list.hpp, or one that a module brought.
 enum class Law : int;
 
 /// point: C of point contacts alone (χ = 0), or what the law has of its own.  rate: C and χ.  restitution: replaces both.
@@ -38,7 +38,7 @@ struct Parts {
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 
-// Every number of a member: row(member, key, preset, unit, rule, group, meaning), with its symbol of docs/model.md.
+// Every number of a member: row(member, key, preset, unit, rule, group, meaning), with its symbol of model.md.
 // clang-format off
 #define SLIDEWAY_INPUTS(row) \
     /* [mechanism] */ \

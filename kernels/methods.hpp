@@ -34,7 +34,7 @@ constexpr bool is_explicit_pair(Method method) {
     return method == Method::dopri5 || method == Method::dop853 || method == Method::bs32 || method == Method::verner65;
 }
 
-/// Whether the explicit pair of `auto` is bs32: at loose tolerances it beats dopri5 (docs/integrators.md), but for steps that end where contacts change.
+/// Whether the explicit pair of `auto` is bs32: at loose tolerances it beats dopri5 (integrators.md), but for steps that end where contacts change.
 constexpr bool auto_takes_bs32(double rtol, bool ends_at_changes) { return rtol >= 1e-5 && !ends_at_changes; }
 
 constexpr char const* name_of(Method method) { return method_table[static_cast<int>(method)].name; }

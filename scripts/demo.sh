@@ -49,6 +49,6 @@ How to read them:
   energy_residual = E(t) - E(0) - W + D_f + D_d: energy that neither came from the crank's work W nor went into friction D_f and
                 contact damping D_d.  The force of the published law jumps where a contact changes between point, line and surface.
                 This makes a tenth of the crank's work, so the peak forces and the yield under this law are not physical.
-                docs/tolerance.md and docs/chaos.md have the details.
+                docs/how_to/tolerance.md and docs/explanation/chaos.md have the details.
 Stop the demo with Ctrl-C and start it again: it continues where it was.
 END

@@ -28,7 +28,7 @@ step ctest --test-dir build/release --label-regex '^slow$' --output-on-failure
 step bash scripts/kills.sh 1000 build/release/bin/slideway
 step bash scripts/sanitize.sh
 step env SLIDEWAY_PROGRAM=build/release/bin/slideway bash scripts/study.sh build/study
-step diff docs/study.md build/study/study.md
+step diff docs/tutorial/study.md build/study/study.md
 step bash scripts/fuzz.sh "${1:-1800}"
 step bash scripts/tidy.sh --all
 printf '%s\n' "${results[@]}"

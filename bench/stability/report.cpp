@@ -105,7 +105,7 @@ void write_markdown(std::filesystem::path const& file, std::vector<Row> const& r
     auto out = fmt::output_file(file.string());
     out.print("# Stability of the methods\n\n{}- kernels: {}\n", machine_and_build(), slideway::name_of(best_isa()));
     out.print(
-        "\nWhat follows from it: [docs/stability.md](../../docs/stability.md). Every point, with medians, statuses and steps: "
+        "\nWhat follows from it: [docs/evidence/stability.md](../../docs/evidence/stability.md). Every point, with medians, statuses and steps: "
         "[stability.csv](stability.csv). Residual: |ε| over what friction and damping took (D_f + |D_d|), of the members that reached the end at {} s. "
         "Where the axis says nothing else: 0.1 mm, π rad/s, steel, η = 0.01, χ = 10 s/m (paper: 0), friction on, falling starts, tolerance 1e-5, "
         "rk4 with half of the linear limit 2√2/Ω. Usable step of rk4, over that limit: the largest with which all members finish and the 95th "

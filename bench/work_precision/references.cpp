@@ -124,7 +124,7 @@ double state_error(std::vector<double> const& state, std::vector<double> const& 
 
 std::vector<double> scales(Ensemble const& ensemble, std::size_t member) {
     if (!std::holds_alternative<SliderEnsemble>(ensemble)) return {1, 1, 1};
-    // c, c·ω, 2c/L_k, 2c/L_k·ω (docs/model.md 9); for ω √(g/c) where nothing drives the slider
+    // c, c·ω, 2c/L_k, 2c/L_k·ω (docs/explanation/model.md 9); for ω √(g/c) where nothing drives the slider
     auto const& sliders = std::get<SliderEnsemble>(ensemble);
     auto const& in = sliders.members[member];
     bool const is_free = sliders.parts.mechanism == Mechanism::free_slider;

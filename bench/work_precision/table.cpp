@@ -136,7 +136,7 @@ void write_markdown(std::filesystem::path const& file, std::vector<Result> const
         "[work_precision.csv](work_precision.csv). To repeat: `scripts/work_precision.sh`. Problems, references, settings: "
         "[bench/work_precision](../work_precision/README.md).\n\n"
         "Error of *states*: root mean square over the components of |y − reference|/(scale + |reference|) at the end time, when no member touches "
-        "the way. Error of *energy*: |ε| in joules ([model](../../docs/model.md#8-energy-audit)). p95: 95 % of the members, of which a failed one "
+        "the way. Error of *energy*: |ε| in joules ([model](../../docs/explanation/model.md#8-energy-audit)). p95: 95 % of the members, of which a failed one "
         "counts as infinite. Time: of the processor, in the run whose error is shown, the energy audit included where energies are measured, "
         "divided by the members. slideway takes the ensemble as one block, the peers one member after the other. An analytic Jacobian counts as "
         "one evaluation.\n",

@@ -45,7 +45,7 @@ public:
 
     void any_start(bool& to) { flag("--any-start", to, "Take starts that no mechanism has, such as inside the way"); }
     void force(bool& to) { flag("--force", to, "Replace an existing result of slideway; inputs and other files are never replaced"); }
-    CLI::Option* json(bool& to) { return flag("--json", to, "One object in JSON in place of text (docs/json.md)"); }
+    CLI::Option* json(bool& to) { return flag("--json", to, "One object in JSON in place of text (docs/reference/json.md)"); }
     void threads(int& to) {
         constexpr unsigned most = 4096;  // beyond it the OpenMP runtime ends the process instead of complaining
         value("--threads", "N", to, "Threads (default: all that this process may use)", whole_number(1, most));
@@ -225,7 +225,7 @@ void add_export(Options& options, ExportArguments& given) {
 }
 
 void add_compile(Options& options, CompileArguments& compile) {
-    options.positional("HEADER", compile.header, "Header with a contact law or a mechanism (docs/extending.md)")->required();
+    options.positional("HEADER", compile.header, "Header with a contact law or a mechanism (docs/how_to/extending.md)")->required();
     options.text("-o,--output", "DIR", compile.folder, "Folder of the modules, which a scene names in [modules] search (default: one that every scene finds)");
     options.value("--isa", "ISA,...", compile.isas, "Instruction sets (default: all of this program that this machine has)", [](std::string_view, std::string_view word) {
         std::vector<Isa> isas;

@@ -1,4 +1,4 @@
-// What commands say with --json: one object on stdout, as docs/json.md describes it.
+// What commands say with --json: one object on stdout, as docs/reference/json.md describes it.
 #pragma once
 
 #include <cstdint>

@@ -166,7 +166,7 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
 void print_explanation(Probed const& probed, std::size_t row, ProbeResult const& result) {
     Explanation const found = explain(probed.table, row, result);
     Parts const& parts = probed.table.parts[row];
-    print_out("\nHow the forces come about (docs/model.md, 3 to 5): apices against their faces\n");
+    print_out("\nHow the forces come about (docs/explanation/model.md, 3 to 5): apices against their faces\n");
     print_table([&](int digits) {
         TextRows rows{{"apex", "face", "depth [m]", "rate [m/s]", "normal force [N]", "sliding [m/s]", "coefficient", "friction [N]"}};
         for (ApexPair const& pair : found.pairs) {

@@ -69,7 +69,7 @@ std::string_view advice_on(Method method) {
     return "use smaller rtol and atol";
 }
 
-/// What became of members whose method left its stable range, and the way out (docs/stability.md).
+/// What became of members whose method left its stable range, and the way out (docs/evidence/stability.md).
 void print_instability(Scene const& scene, Statuses const& ended) {
     Method const method = scene.integrator.method;
     std::uint64_t const unstable = count_of(ended, Status::unstable);

@@ -1,4 +1,4 @@
-// [drive]: what moves a mechanism (docs/model.md 15).
+// [drive]: what moves a mechanism (docs/explanation/model.md 15).
 #pragma once
 
 #include <string_view>

@@ -209,7 +209,7 @@ std::string keys_markdown(Settings keys) {
         "# Keys of a scene\n\nEvery key that a scene may have. `slideway list --markdown` writes this page, `slideway list --json` the same for programs, and "
         "`slideway list --schema` a JSON Schema to editors of TOML\n(put `#:schema scene.schema.json` into a scene's first line for Taplo and Even Better "
         "TOML). Numbers are in SI units, or texts with a unit: `\"0.1 mm\"`, `\"30 rpm\"`.\n"
-        "Outside its usual range a number, its sign aside, is a warning ([troubleshooting.md](troubleshooting.md#warnings-of-unusual-numbers)).\n";
+        "Outside its usual range a number, its sign aside, is a warning ([troubleshooting.md](../how_to/troubleshooting.md#warnings-of-unusual-numbers)).\n";
     std::string_view table = "none yet";
     for (Setting const& key : keys) {
         if (key.table() != table) {

@@ -31,7 +31,7 @@ std::string described(Setting const& key);
 std::string keys_json(Settings keys = known_keys());
 /// JSON Schema (draft 7) of scenes, for editors of TOML.
 std::string scene_schema(Settings keys = known_keys());
-/// docs/keys.md.
+/// docs/reference/keys.md.
 std::string keys_markdown(Settings keys = known_keys());
 
 }  // namespace slideway

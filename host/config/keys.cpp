@@ -170,7 +170,7 @@ bool is_replaced_by_drive(Key const& key, Parts const& parts) {
 bool counts_for(Key const& key, Parts const& parts) {
     if (!counts_for(key, parts.mechanism)) return false;
     if (is_replaced_by_drive(key, parts)) return false;
-    // Rigid contacts stick and slip exactly (docs/model.md 13).
+    // Rigid contacts stick and slip exactly (docs/explanation/model.md 13).
     if (parts.rigid && key.group == KeyGroup::smooth_friction) return false;
     // What gives way under a face.
     if (parts.rigid && (key.member == &Inputs::thickness_y || key.member == &Inputs::thickness_z)) return false;

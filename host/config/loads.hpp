@@ -1,5 +1,5 @@
 // [load.<name>], [spring.<name>], [stop.<name>], [ground_motion] and [film]: what acts on a mechanism beside its weight, its contacts and its drive
-// (docs/model.md 14).  And [way_profile.<name>] and [way_ends]: how the faces of its way run, and how far (docs/model.md 18).
+// (docs/explanation/model.md 14).  And [way_profile.<name>] and [way_ends]: how the faces of its way run, and how far (docs/explanation/model.md 18).
 #pragma once
 
 #include <deque>

@@ -90,7 +90,7 @@ void read_sweep(Reading& reading);
 void read_integrator(Reading& reading);
 /// Until when, and what of [study] is recorded on the way; needs everything above.
 void read_recording(Reading& reading);
-/// Warns of numbers that no mechanism has, likely slips of a unit (docs/troubleshooting.md): given ones, rows of a table, draws, columns of a sweep.
+/// Warns of numbers that no mechanism has, likely slips of a unit (docs/how_to/troubleshooting.md): given ones, rows of a table, draws, columns of a sweep.
 void warn_of_unusual(Reading& reading);
 
 /// How long the members of a study of orbits run [s], and how often their steps end at known times.

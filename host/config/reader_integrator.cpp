@@ -15,7 +15,7 @@ namespace slideway {
 namespace {
 
 /// Of a slider at rest velocities are small: atol alone holds its ringing. At the size of rtol an explicit pair at its limit of stability puts as
-/// much energy into it as damping takes, and it never comes to rest (docs/integrators.md).
+/// much energy into it as damping takes, and it never comes to rest (docs/evidence/integrators.md).
 constexpr double atol_per_rtol = 0.1;
 
 /// Whether nothing takes energy from the impacts of any member, so that what one errs by is never forgotten, and nothing drives it either: contact never
@@ -133,7 +133,7 @@ void read_integrator(Reading& reading) {
     IntegratorSettings& settings = scene.integrator;
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     reading.read_table("integrator");
-    // The errors of dopri5's bounces have one sign: they would add up (docs/integrators.md).
+    // The errors of dopri5's bounces have one sign: they would add up (docs/evidence/integrators.md).
     if (settings.method == Method::automatic && bounces_for_ever(scene)) {
         settings.method = Method::verner65;
         reading.warn("nothing takes energy from what bounces here, and errors of impacts are never forgotten: integrator.method \"auto\" is \"verner65\"");

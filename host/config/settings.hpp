@@ -1,5 +1,5 @@
 // The table of keys: every key of a scene once.  Those that are no number of the physics have their rows here, those of the physics stand in keys.hpp
-// and get a row each.  Reading, suggestions, --set, the resolved scene, `slideway list`, the JSON Schema, docs/keys.md and Python's help are loops over it.
+// and get a row each.  Reading, suggestions, --set, the resolved scene, `slideway list`, the JSON Schema, docs/reference/keys.md and Python's help are loops over it.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// How the forces of one state come about, step by step: apices, depths, modes, normal forces, friction, what all of it does to the slider (docs/model.md 3 to 5).
+// How the forces of one state come about, step by step: apices, depths, modes, normal forces, friction, what all of it does to the slider (docs/explanation/model.md 3 to 5).
 #pragma once
 
 #include <array>

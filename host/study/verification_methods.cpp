@@ -37,7 +37,7 @@ Method other_method(Scene const& scene) {
     return scene.parts.rigid ? Method::dopri5 : Method::dop853;
 }
 
-/// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
+/// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/evidence/integrators.md).
 double cost_of(Parts const& parts, Method study, Method check) {
     // Without faces there is no stiff method, and `auto` is dopri5.
     bool const is_dopri5 = study == Method::automatic && !has_faces(parts);

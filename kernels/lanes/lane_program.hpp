@@ -173,10 +173,10 @@ private:
     SLIDEWAY_HD static PairNumbers const& pair_of(IntegratorSettings const& settings, Watching watching) {
         bool const is_automatic = settings.method == Method::automatic;
         if (settings.method == Method::verner65) return pair_numbers<Verner65>();
-        // Impacts, whose steps are many and short, would gain nothing by the others (docs/rigid.md).
+        // Impacts, whose steps are many and short, would gain nothing by the others (rigid.md).
         if (IsRigid<Model>) return pair_numbers<DormandPrince>();
         if (settings.method == Method::rk4) return pair_numbers<RungeKutta4>();
-        // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
+        // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (integrators.md).
         if (settings.method == Method::dop853 || (is_automatic && is_smooth)) return pair_numbers<Dop853>();
         bool const is_loose = is_automatic && auto_takes_bs32(settings.rtol, watching == Watching::gaps);
         if (settings.method == Method::bs32 || is_loose) return pair_numbers<BogackiShampine>();

@@ -6,7 +6,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// How `method = "auto"` changes members between the explicit pair and the stiff method (docs/integrators.md).
+/// How `method = "auto"` changes members between the explicit pair and the stiff method (integrators.md).
 template <class Model, class Real> struct MethodChoice {
     /// Between stints of the explicit pair: who is better off with the stiff method.  @param touching lanes in contact
     SLIDEWAY_HD static void look_for_stiffness(Pack<Model, Real>& pack, Mask<Real> touching) {

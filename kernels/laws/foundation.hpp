@@ -11,7 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// the bilinear weights N_i = (1 + ξ_i ξ)(1 + η_i η)/4, and never pulling:
 ///   F_i = max(0, ∫ κ δ₊ (1 + c δ') N_i dA),   U = ∫ ½ κ δ₊² dA.
 /// U is convex, as an integral of convex functions of an affine depth.  c is χ of surfaces, or a/v0 with restitution.  No mode: a face, an
-/// edge and a corner differ by how much is wet.  Source: docs/model.md 4.
+/// edge and a corner differ by how much is wet.  Source: model.md 4.
 struct Foundation {
     static constexpr Key keys[] = {{"contact.bed_stiffness", &Inputs::law_a, "N/m3", Rule::positive, KeyGroup::law,
                                     "stiffness of the bed: pressure over depth", follows, nullptr, "E_s / l of its face"}};

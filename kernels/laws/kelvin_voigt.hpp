@@ -7,7 +7,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// A linear spring and damper at each of the sixteen pairs of apex and face, never pulling: F = max(0, kδ + cδ'), U = kδ²/2.
-/// No mode but that an apex touches or not; without damping and friction it keeps energy.  Source: docs/model.md 4.
+/// No mode but that an apex touches or not; without damping and friction it keeps energy.  Source: model.md 4.
 struct KelvinVoigt {
     static constexpr Key keys[] = {
         {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", follows, nullptr,

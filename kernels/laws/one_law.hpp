@@ -42,7 +42,7 @@ template <class Law, class Damping> struct OneLaw {
 };
 
 /// One of several laws with one of their dampings, chosen when the run begins; every call names its function.  The assembler for GPUs
-/// so sees what each call needs of the registers; behind a pointer it must save half of them (docs/performance.md).  All threads of a
+/// so sees what each call needs of the registers; behind a pointer it must save half of them (performance.md).  All threads of a
 /// grid choose alike.
 template <class... Laws> struct AnyLaw {
     Law law{};

@@ -20,7 +20,7 @@ template <class Real> struct HigherMoments { Real of_30, of_03, of_31, of_13, of
 /// Where the depth δ = m + pξ + qη of a face is above zero, seen with its axes turned and exchanged so that its slopes are P ≥ Q ≥ 0: the
 /// apices then have depths d1 ≥ d2 ≥ d3 ≥ d4, the first at (1, 1).  What is wet is all but a corner at (−1, −1) (d3 ≥ 0), a corner at (1, 1)
 /// or nothing (d2 < 0), or a strip between.  Lengths come from the depths of the apices beside them, where no difference cancels: what
-/// a corner carries that is in by 1e-12 m has all its digits.  Source: docs/model.md 4.
+/// a corner carries that is in by 1e-12 m has all its digits.  Source: model.md 4.
 template <class Real> class WetPolygon {
 public:
     SLIDEWAY_FN explicit WetPolygon(Quad<Real> const& depth) {

@@ -26,7 +26,7 @@ template <class Real> SLIDEWAY_FN GivenMotion<Real> scaled(GivenMotion<Real> con
     return {fma(scale, profile.place, start), scale * profile.velocity, scale * profile.acceleration};
 }
 
-/// Angle [rad], speed and acceleration of a crank that is driven: θ0 + ω t, or θ0 and what a profile turns by (docs/model.md 15).
+/// Angle [rad], speed and acceleration of a crank that is driven: θ0 + ω t, or θ0 and what a profile turns by (model.md 15).
 /// @param p has crank_speed, start_angle and motor
 template <class Real, class Parameters>
 SLIDEWAY_FN GivenMotion<Real> driven_crank(DrivePlan const& drive, Real t, Parameters const& p) {

@@ -7,7 +7,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Numbers of [drive] (docs/model.md 15).
+/// Numbers of [drive] (model.md 15).
 template <class Real> struct DriveNumbers {
     Real torque;   // T0 [N m]
     Real droop;    // 1/ω0 along the torque, 0 of one that does not fall with the speed [s/rad]

@@ -12,7 +12,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A slider whose pin P = u + A s_P, or whose centre of mass G = u + A s_G, does not lie in its hole's centre u (docs/model.md 16).  Its guide moves
+/// A slider whose pin P = u + A s_P, or whose centre of mass G = u + A s_G, does not lie in its hole's centre u (model.md 16).  Its guide moves
 /// P with all of the slider's mass M there; what the distance h = G − P adds is a force on it, and couples the slider's turning to it.
 template <class Real> struct OffsetSlider {
     Vec3<Real> pin, pin_velocity;          // d = A s_P from u, ω × d, along the axes of the ground

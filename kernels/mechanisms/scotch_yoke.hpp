@@ -8,7 +8,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A pin on a driven crank slides across the slider: x = r cos θ (docs/model.md 7).
+/// A pin on a driven crank slides across the slider: x = r cos θ (model.md 7).
 struct ScotchYokeDrive : DrivenGuide<ScotchYokeDrive> {
     using Base = DrivenBase;
     static constexpr bool is_free = false;

@@ -19,7 +19,7 @@ struct YokeMotorBase : CrankStateBase {
 };
 
 /// A scotch yoke on a motor, or without a drive: x = r cos θ and (J + M x_θ²) θ'' = T − x_θ (M x_θθ θ'² − F_x − M g_x), of Lagrange's equation with
-/// x_θ = dx/dθ (docs/model.md 15).
+/// x_θ = dx/dθ (model.md 15).
 struct YokeOnMotor : DrivenGuide<YokeOnMotor> {
     using Base = YokeMotorBase;
     static constexpr bool is_free = false;

@@ -23,7 +23,7 @@ template <class Real> struct TurningMasses {
     }
 };
 
-/// Crank and rod on a motor, or without a drive: θ and θ' are numbers 10 and 11 of the state (docs/model.md 15).
+/// Crank and rod on a motor, or without a drive: θ and θ' are numbers 10 and 11 of the state (model.md 15).
 struct CrankAndRodOnMotor {
     using Base = CrankStateBase;
     static constexpr MechanismInfo info = crank_state_info(CrankAndRod::info, "slider_crank_motor");

@@ -10,7 +10,7 @@
 namespace slideway {
 
 /// Rate Ω [rad/s] of the stiffest motion of a slider that lies on one of its faces: with the stiffness k of the face under the law it moves as a
-/// whole at √(k/M), rocks at √(k (L_k/2)²/I) and rolls at √(k (w/2)²/I) (docs/stability.md).
+/// whole at √(k/M), rocks at √(k (L_k/2)²/I) and rolls at √(k (w/2)²/I) (stability.md).
 /// Of the planar block, whose corners stiffen with depth: at two corners' largest stiffness in an impact at the speed of the crank's pin,
 /// M v²/2 = 2 K δ^(n+1)/(n+1); inputs complete.
 static inline double stiffest_rate(MechanismInfo const& mechanism, LawInfo const& law, Inputs const& in) {

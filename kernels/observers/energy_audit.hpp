@@ -4,7 +4,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The energies of a member over its run [J], docs/model.md 8.  What the method made is known step by step: see
+/// The energies of a member over its run [J], model.md 8.  What the method made is known step by step: see
 /// SliderObserver::audit_step.
 template <class Real> struct EnergyAudit {
     Real change;          // E(t) − E(0)
@@ -29,7 +29,7 @@ template <class Real> struct EnergyAudit {
 ///   of what crank and loads moved (the error of gliding and of free flight).  Losses of the wrong sign excuse nothing.
 /// - It does not resolve its contacts: of what went through their springs more than an eighth went astray in the single steps, gains and
 ///   losses alike, and that is more than half of the first bound.
-/// How close runs came to these bounds, and how far beyond unstable ones lie: docs/stability.md.
+/// How close runs came to these bounds, and how far beyond unstable ones lie: stability.md.
 /// @param smallest M (c ω)², the audit's absolute tolerance is relative to it [J]
 template <class Real> SLIDEWAY_FN Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real smallest) {
     Real const zero(0.0);

@@ -19,7 +19,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The planar slider-crank whose block and walls are rigid (docs/model.md 13), as the lanes integrate it: corners fly, meet their walls in impacts without
+/// The planar slider-crank whose block and walls are rigid (model.md 13), as the lanes integrate it: corners fly, meet their walls in impacts without
 /// duration (`settle`), and are held there by a constraint as long as that pushes.
 struct RigidPlanarSliderCrank : RigidLanes<PlanarBase> {
     template <class Real> using Report = RigidPlanarReport<Real>;

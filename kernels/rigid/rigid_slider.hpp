@@ -21,7 +21,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A slider whose hole and way are rigid (docs/model.md 13), as the lanes integrate it: apices fly, meet their faces in impacts without duration (`settle`), and
+/// A slider whose hole and way are rigid (model.md 13), as the lanes integrate it: apices fly, meet their faces in impacts without duration (`settle`), and
 /// push as long as they last.  What guides it along the way is looked up: the lanes are compiled once for all mechanisms of a base.
 /// @tparam Number a number or a pack of them, of which and of whose Tangent the functions below are called  @tparam Base_ of the mechanism's row in
 /// mechanisms/list.hpp

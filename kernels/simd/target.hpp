@@ -10,7 +10,7 @@
 #endif
 
 // SLIDEWAY_FN is inlined; SLIDEWAY_NOINLINE is a function of its own; SLIDEWAY_CARD_CALL is inlined on processors and called on cards, whose
-// assembler shares out the registers better between several functions than within a long one (docs/gpu.md).  SLIDEWAY_UNROLL stands before a loop
+// assembler shares out the registers better between several functions than within a long one (gpu.md).  SLIDEWAY_UNROLL stands before a loop
 // whose constant number of turns g++ would keep as a loop.
 // Who compiles kernels oftener than he runs them says -DSLIDEWAY_FN=inline: the compiler then chooses what it inlines, and takes a third of the time.
 #if defined(__CUDACC__)

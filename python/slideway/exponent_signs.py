@@ -1,4 +1,4 @@
-"""What records of growth allow to say of the sign of exponents, by the rule of the program (docs/chaos.md)."""
+"""What records of growth allow to say of the sign of exponents, by the rule of the program (docs/explanation/chaos.md)."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def compile(  # noqa: A001 (slideway.compile is named as the program's command)
 ) -> list[Module]:
     """Compiles a header with a contact law, a mechanism or both, so that scenes know them by name.
 
-    What such a header holds: docs/extending.md. It is compiled by the compiler that CXX names, else by g++.
+    What such a header holds: docs/how_to/extending.md. It is compiled by the compiler that CXX names, else by g++.
 
     Args:
         header: path of the header, or its text, in several lines; what the text includes in quotes is looked for nowhere but in slideway.

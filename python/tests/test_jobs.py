@@ -102,7 +102,7 @@ def test_enough_members_name_the_cheapest_fit(program: str, tmp_path: Path) -> N
 def test_a_verdict_takes_the_members_that_the_page_says(job: ModuleType, failed: int, members: int) -> None:
     assert [job.Row("H8/f7", count - failed, count).verdict for count in (members - 1, members)] == ["undecided", "yes"]
     assert binom.cdf(failed, members, 1 - WANTED) <= 0.025 < binom.cdf(failed, members - 1, 1 - WANTED)
-    assert f"{members:,}" in (root / "docs/jobs.md").read_text(encoding="utf-8")
+    assert f"{members:,}" in (root / "docs/how_to/jobs.md").read_text(encoding="utf-8")
 
 
 def test_a_single_failure_of_few_members_is_no_verdict(job: ModuleType) -> None:
@@ -114,4 +114,4 @@ def test_a_single_failure_of_few_members_is_no_verdict(job: ModuleType) -> None:
 @pytest.mark.slow
 def test_the_page_shows_what_it_prints(program: str) -> None:
     printed = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True).stdout
-    assert f"$ python examples/jobs/fit.py\n{printed}```\n" in (root / "docs/jobs.md").read_text(encoding="utf-8")
+    assert f"$ python examples/jobs/fit.py\n{printed}```\n" in (root / "docs/how_to/jobs.md").read_text(encoding="utf-8")

@@ -71,7 +71,7 @@ def test_a_key_that_became_another_one_is_refused_in_the_same_process(modules):
 
 @pytest.fixture
 def motor(program, tmp_path, monkeypatch):
-    """The motor of docs/extending.md, which takes long to compile: once for all tests of a build (tests/system/own_module_fixture.hpp)."""
+    """The motor of docs/how_to/extending.md, which takes long to compile: once for all tests of a build (tests/system/own_module_fixture.hpp)."""
     results = Path(program).resolve().parents[1] / "gtest"
     cache = results / "cache" if results.is_dir() else tmp_path / "cache"
     monkeypatch.setenv("XDG_CACHE_HOME", str(cache))

@@ -54,7 +54,7 @@ def test_every_plot_takes_an_axis(function: object) -> None:
     assert inspect.signature(function).parameters["ax"].default is None  # type: ignore[arg-type]
 
 
-DOCUMENTS = ["README.md", "docs/quantities.md", "docs/tolerance.md", "python/README.md", *slow("docs/python.md")]  # that one goes with other packages
+DOCUMENTS = ["README.md", "docs/reference/quantities.md", "docs/how_to/tolerance.md", "python/README.md", *slow("docs/how_to/python.md")]  # that one goes with other packages
 # Runs each script that is given on stdin, in a folder and with names of its own, and tells what came of it: libraries are loaded once.
 EACH = """
 import json, os, sys, traceback
@@ -101,10 +101,10 @@ def test_examples_of_documents_run(document: str, ends_of_documents: dict[str, s
 @pytest.mark.slow
 def test_the_sampled_posterior_is_that_of_the_linearised_model(monkeypatch: pytest.MonkeyPatch) -> None:
     """Noise so small leaves a Gaussian: its covariance is that of least squares, noise² (JᵀJ)⁻¹, with J by central differences."""
-    (block,) = [block for block in python_blocks("docs/python.md") if "import emcee" in block]
+    (block,) = [block for block in python_blocks("docs/how_to/python.md") if "import emcee" in block]
     monkeypatch.chdir(root)
     names: dict[str, Any] = {"np": np, "slideway": slideway}
-    exec(compile(block, "docs/python.md", "exec"), names)
+    exec(compile(block, "docs/how_to/python.md", "exec"), names)
     truth, steps = np.array([0.4, 1e-3]), np.diag([1e-3, 1e-6])
     jacobian = np.stack([(names["heights"](truth[None] + step) - names["heights"](truth[None] - step))[0] / (2 * step.sum()) for step in steps], axis=1)
     expected = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian))) * names["noise"]
@@ -116,7 +116,7 @@ def test_the_sampled_posterior_is_that_of_the_linearised_model(monkeypatch: pyte
 @pytest.mark.slow
 def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
     """With fewer members and shorter runs: each is accepted, and reads what those before it wrote."""
-    text = (root / "docs" / "tutorial.md").read_text(encoding="utf-8")
+    text = (root / "docs/tutorial/tutorial.md").read_text(encoding="utf-8")
     commands = [shlex.split(line, comments=True) for line in re.findall(r"^\$ (slideway .*)$", text, re.MULTILINE)]
     assert {command[1] for command in commands} == {"check", "run", "info", "stats", "report"}
     (scene,) = re.findall(r"^```toml\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
@@ -156,7 +156,7 @@ print(slideway.plot.__name__, 'matplotlib' in sys.modules)
 
 def test_the_page_of_quantities_is_that_of_the_program(program: str) -> None:
     listed = subprocess.run([program, "list"], capture_output=True, text=True, check=True).stdout
-    page = (root / "docs" / "quantities.md").read_text(encoding="utf-8")
+    page = (root / "docs/reference/quantities.md").read_text(encoding="utf-8")
     told = {match[1]: (match[2], match[3].replace("\\|", "|")) for match in re.finditer(r"^\| `(\w+)` \| (.*?) \| (.*) \| .* \|$", page, re.MULTILINE)}
     for part in ("quantities (study.quantities)", "series (study.quantities)"):
         rows = listed[listed.index(part) :].split("\n\n")[0].splitlines()[1:]

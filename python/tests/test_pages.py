@@ -71,8 +71,8 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/jobs.md", "docs/json.md", "docs/report.md", "docs/results.md", "docs/rigid.md",
-         "docs/tolerance.md"]  # fmt: skip
+PAGES = ["docs/explanation/chaos.md", "docs/how_to/command_line.md", "docs/how_to/gpu.md", "docs/how_to/jobs.md", "docs/reference/json.md", "docs/how_to/report.md", "docs/reference/results.md", "docs/how_to/rigid.md",
+         "docs/how_to/tolerance.md"]  # fmt: skip
 
 
 @pytest.fixture
@@ -96,11 +96,11 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
 
 @pytest.mark.parametrize("document", ["README.md", *slow(*PAGES)])
 def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> None:
-    if document in ("docs/chaos.md", "docs/report.md", "docs/results.md"):  # which begin with a result that is there
+    if document in ("docs/explanation/chaos.md", "docs/how_to/report.md", "docs/reference/results.md"):  # which begin with a result that is there
         subprocess.run([program, "run", "scenes/planar_rigid.toml", "--set", "study.members=4", "--set", "study.duration=1 s", "--set", "study.samples=4001",
                         "--quiet", "-o", "out.nc"], cwd=shell, check=True)  # fmt: skip
         (shell / "measured.csv").write_text("".join(f"{k},{(k * 7919) % 1000}\n" for k in range(4000)), encoding="utf-8")
-    if document == "docs/results.md":
+    if document == "docs/reference/results.md":
         assert run("slideway run scenes/poincare_0.1mm.toml -o orbits.nc", shell).returncode == 0
     lines = commands(document)
     assert lines
@@ -115,7 +115,7 @@ def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> Non
 
 def test_every_page_with_commands_is_among_them() -> None:
     found = {f"docs/{page.name}" for page in (root / "docs").glob("*.md") if commands(f"docs/{page.name}")} | {"README.md"}
-    assert found == {"README.md", *PAGES, "docs/tutorial.md"}  # whose commands test_package.py runs
+    assert found == {"README.md", *PAGES, "docs/tutorial/tutorial.md"}  # whose commands test_package.py runs
 
 
 # What depends on the machine or its clock.
@@ -144,12 +144,12 @@ def test_lines_that_a_program_does_not_print_are_found() -> None:
     assert missing(["a b", "c"], "a  b\nd\nc\n") == []
     assert missing(["a b", "cost 3 s", "e"], "a  b\nd\nc\n") == ["e"]
     assert missing(["c", "a b"], "a  b\nd\nc\n") == ["a b"]
-    assert [command.split()[1] for command, shown in transcripts("docs/tutorial.md")] == ["check", "run", "info", "stats", "report", "run", "run", "run"]
+    assert [command.split()[1] for command, shown in transcripts("docs/tutorial/tutorial.md")] == ["check", "run", "info", "stats", "report", "run", "run", "run"]
     assert all(shown for command, shown in transcripts("README.md"))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("document", ["README.md", "docs/tutorial.md"])
+@pytest.mark.parametrize("document", ["README.md", "docs/tutorial/tutorial.md"])
 def test_pages_show_what_the_program_prints(document: str, program: str, tmp_path: Path) -> None:
     (tmp_path / "bin").mkdir()
     (tmp_path / "bin" / "slideway").symlink_to(Path(program).resolve())

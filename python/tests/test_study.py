@@ -1,4 +1,4 @@
-"""The worked studies (scripts/study, docs/study.md) against what can be known without slideway, and their page against members of other draws."""
+"""The worked studies (scripts/study, docs/tutorial/study.md) against what can be known without slideway, and their page against members of other draws."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ sys.path.insert(0, str(root / "scripts"))
 
 from study import ideal, machines, page, runs  # noqa: E402
 
-PAGE = (root / "docs/study.md").read_text(encoding="utf-8")
+PAGE = (root / "docs/tutorial/study.md").read_text(encoding="utf-8")
 AS_DRAWN = {"friction.kinetic": 0.08, "mechanism.crank_speed": "600 rpm"}  # as the closed forms have them
 
 

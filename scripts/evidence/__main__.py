@@ -44,7 +44,7 @@ def text(experiments: list[Experiment]) -> str:
 
 def main() -> int:
     """The command; exit code 1 where a part could not be made."""
-    parser = argparse.ArgumentParser(prog="python -m evidence", description="What docs/findings.md rests on.")
+    parser = argparse.ArgumentParser(prog="python -m evidence", description="What docs/evidence/findings.md rests on.")
     parser.add_argument("output", type=Path, help="folder of the results and of evidence.html and evidence.md")
     parser.add_argument("--quick", action="store_true", help="the machinery alone; none of its numbers means anything")
     parser.add_argument("--threads", type=int, help="threads of the program (default: all that this process may use)")

@@ -1,4 +1,4 @@
-"""The drawings of the mechanism: side view and contact segment (docs/model.md sections 1 and 3)."""
+"""The drawings of the mechanism: side view and contact segment (docs/explanation/model.md sections 1 and 3)."""
 
 from __future__ import annotations
 

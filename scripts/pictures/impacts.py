@@ -1,4 +1,4 @@
-"""The picture of rigid contacts (docs/rigid.md)."""
+"""The picture of rigid contacts (docs/how_to/rigid.md)."""
 
 from __future__ import annotations
 

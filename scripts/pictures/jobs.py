@@ -1,4 +1,4 @@
-"""The pictures of the jobs (docs/jobs.md): each from the scene or script that the page shows."""
+"""The pictures of the jobs (docs/how_to/jobs.md): each from the scene or script that the page shows."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def stability(root: Path) -> str:
 
 
 def plots(root: Path) -> str:
-    """Two plots of the Python package (docs/python.md), of a tolerance study."""
+    """Two plots of the Python package (docs/how_to/python.md), of a tolerance study."""
     result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=256)
     figure, axes = panels(2, height=6.0)
     slideway.plot.quantiles(result, "peak_normal_force", ax=axes[0])
@@ -57,7 +57,7 @@ def plots(root: Path) -> str:
 
 
 def explain(root: Path) -> str:
-    """The state with the largest force of a member, apex by apex (docs/command_line.md)."""
+    """The state with the largest force of a member, apex by apex (docs/how_to/command_line.md)."""
     result = run(root, "scenes/ensemble_starts.toml", "conservative", study__members=2, study__duration="40 ms", study__samples=4001,
                  study__quantities=["normal_force"])  # fmt: skip
     largest = float(result.time[int(result.normal_force.values[1].argmax())])
@@ -84,7 +84,7 @@ def report(root: Path) -> bytes:
     return small.getvalue()
 
 
-_floors = (  # docs/architecture.md, from above
+_floors = (  # docs/explanation/architecture.md, from above
     ("commands", "parse, call, print", 0), ("library, Python module", "in memory", 0), ("study", "what to run, what to conclude", 0),
     ("store", "shards, results, merge", 0), ("run", "blocks over threads and ranks", 0), ("chaos, statistics", "plain numbers", 0),
     ("config, sampling, base", "keys, scenes, designs, files", 0), ("backend", "kernels per instruction set, GPUs", 0),

@@ -1,4 +1,4 @@
-"""The map of regimes of a planar slider-crank with rigid contacts (docs/chaos.md): rest, periodic impacts and chaos over speed, restitution,
+"""The map of regimes of a planar slider-crank with rigid contacts (docs/explanation/chaos.md): rest, periodic impacts and chaos over speed, restitution,
 friction and clearance.
 
 As a program it prints the shares of each regime and how many members change theirs at a tighter tolerance: python -m pictures.regimes.

@@ -27,7 +27,7 @@ def section(bench: Bench) -> Section:
         "Fig. 19: the largest Lyapunov exponent",
         [
             "The paper takes x(t) alone, finds delay and window by the C–C method, and fits a line to the mean logarithmic distance of neighbours (small data sets, "
-            "Rosenstein et al. 1993). Neighbours that follow the equations, 1e-6 off each start and put back 2,000 times a revolution (docs/chaos.md), need no such choice.",
+            "Rosenstein et al. 1993). Neighbours that follow the equations, 1e-6 off each start and put back 2,000 times a revolution (docs/explanation/chaos.md), need no such choice.",
             "The sampling of the paper's series is not in the print, nor are the start, the clearance and the unit of P; so its numbers cannot be had from the same data.",
         ],
     )

@@ -11,7 +11,7 @@ from .sections import Bench, Section, Table
 
 
 def section(bench: Bench) -> Section:
-    """The parameters as the results carry them. Where print and run differ, docs/model.md 10 has the reason."""
+    """The parameters as the results carry them. Where print and run differ, docs/explanation/model.md 10 has the reason."""
     return Section(
         "Tables 1 and 6–8: parameters",
         [
@@ -122,7 +122,7 @@ def _carriages(bench: Bench) -> Table:
 
 def _departures() -> Table:
     return Table(
-        "Where the model departs from the print (docs/model.md 10).",
+        "Where the model departs from the print (docs/explanation/model.md 10).",
         ["print", "here", "why"],
         [
             ["Table 8 widths 2.016 … 2.1 mm", "20.16 … 21 mm", "the way is 20 × 30 mm; these are the clearances of Fig. 17"],

@@ -185,14 +185,14 @@ and a ten thousandth in impacts ({1e3 * pump.impact_limit:.1f} mJ; above it the 
 The limits of the fit (ISO 286-1, 18 to 30 mm) are three standard deviations of the clearance. Friction is 0.08 with a standard deviation of 0.01, restitution
 0.4 to 0.7; speed scatters by 1 %, pressure by 2 %.
 
-For each fit {rigid[0].members:,} crossheads ran ten turns with [rigid contacts](rigid.md), and {compliant[0].members} with compliant ones: steel corners of 0.5 mm radius with the
-same restitution. Brackets are 95 % intervals of sampling.
+For each fit {rigid[0].members:,} crossheads ran ten turns with [rigid contacts](../how_to/rigid.md), and {compliant[0].members} with compliant ones:
+steel corners of 0.5 mm radius with the same restitution. Brackets are 95 % intervals of sampling.
 
 | fit | clearance, µm | lost in impacts, mJ per turn: mean, 95 % quantile | compliant: mean | peak force, compliant, N: median, 95 % | meet the impact limit | meet both limits | cost per good part |
 |---|---|---|---|---|---|---|---|
 {fits_table(rigid, compliant)}
 
-![Distributions of the energy lost in impacts for four fits, with rigid and compliant contacts, and the limit](pictures/study.svg)
+![Distributions of the energy lost in impacts for four fits, with rigid and compliant contacts, and the limit](../pictures/study.svg)
 
 The cost per good part is that of making all ({", ".join(f"{fit.name} {fit.cost:g}" for fit in fits)}) plus {rejected_cost:g} for each that fails its test, divided by the
 number of good ones. These prices are assumptions (`scripts/study/runs.py`, `page.py`). With them **{best.name}** is
@@ -231,15 +231,15 @@ Wedged members lose more than five times the median in impacts, or fail.
 |---|---|---|---|---|
 {space_table(root, found)}
 
-![Side force and wear over the slider's way; lean of the slider over a turn for three depths](pictures/study_worn.svg)
+![Side force and wear over the slider's way; lean of the slider over a turn for three depths](../pictures/study_worn.svg)
 
 - Misalignment costs nothing until some sliders do not fit. Friction ({quantile(rigid[2].friction, 0.5):.3f} J) feels neither it nor wear.
 - The worn way's slider leans, which the plunger's seal has to bear; with {deepest.value:g} µm impacts take {np.median(deepest.impacts) / np.median(new.impacts):.1f} times as much as on a new way.
 - Peak forces are largest between flat new faces, which meet all at once: they tell stiffness, not health.
 
 ## How heavy a flywheel?
-The press of [jobs](jobs.md#press-with-motor-and-flywheel), whose workpiece scatters by 5 %: with which flywheel does a stroke take at most a tenth of the speed
-in 99 % of {enough.before.size} presses? The closed form is the energy of the press without clearance over the crank's angle.
+The press of [jobs](../how_to/jobs.md#press-with-motor-and-flywheel), whose workpiece scatters by 5 %: with which flywheel does a stroke take
+at most a tenth of the speed in 99 % of {enough.before.size} presses? The closed form is the energy of the press without clearance over the crank's angle.
 
 | flywheel, kg m² | a stroke takes: mean, 99 % quantile | closed form | motor's peak torque, N m | its rms, N m | strokes a minute |
 |---|---|---|---|---|---|
@@ -248,14 +248,14 @@ in 99 % of {enough.before.size} presses? The closed form is the energy of the pr
 **{enough.inertia:g} kg m²** are enough. The heavier wheel takes the peaks off the motor, hardly its heat.
 
 ## How tall a tool?
-The carriage of [jobs](jobs.md#carriage-on-a-measured-profile), 40 mm long, carries a mass above the way; its weight must hold both ends down as it speeds
-up and brakes. The profile has 17 measured rows, and the acceleration depends on what stands between them:
+The carriage of [jobs](../how_to/jobs.md#carriage-on-a-measured-profile), 40 mm long, carries a mass above the way; its weight must hold both ends
+down as it speeds up and brakes. The profile has 17 measured rows, and the acceleration depends on what stands between them:
 
 | `interpolation` | peak acceleration, m/s² | an end lifts above, mm, by moments | in the runs, in steps of 5 mm |
 |---|---|---|---|
 {carriage_table(root, found.carriages)}
 
-![Speed drop of the press over its flywheel, and lean of the carriage over its height, with what the closed forms say](pictures/study_machines.svg)
+![Speed drop of the press over its flywheel, and lean of the carriage over its height, with what the closed forms say](../pictures/study_machines.svg)
 
 The interpolation moves the answer by {100 * (max(heights) / min(heights) - 1):.0f} %. Measure faster where the speed changes, or stay below the least.
 
@@ -263,5 +263,5 @@ The interpolation moves the answer by {100 * (max(heights) / min(heights) - 1):.
 Of {sum(out.members for out in everyone):,} planar members {sum(out.failed for out in everyone)} failed. Some members of each kind (rigid, compliant, in space, worn by 40 µm) ran again with tolerances a hundred times
 tighter, half of these by another method: of losses and peak forces {trust(found.verdicts)}. Intervals are of sampling alone. Restitution and friction
 of such a joint are guesses until they are measured. Rigid and compliant corners are different models:
-[where they agree](rigid.md#agreement-with-stiff-compliant-contacts).
+[where they agree](../how_to/rigid.md#agreement-with-stiff-compliant-contacts).
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Compares what the hot paths cost on one instruction set with the record beside this script: right-hand sides exactly, instructions within 3 %.
 # Exit code 77, with the reason, where the record has no rows of that set, or this machine does not run it.  A change that is meant goes into the
-# record with --record, and its reason into docs/performance.md.
+# record with --record, and its reason into docs/evidence/performance.md.
 # Usage: tests/costs/check.sh PROGRAM COMPILER ISA [--record]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -67,10 +67,10 @@ END
 "$cmake" --build "$work/units/build" >>"$work/units.log" 2>&1 || { cat "$work/units.log"; exit 1; }
 bash "$root/tests/structure/isa_purity.sh" "$work/units/build/objects.txt"
 
-# The blocks of docs/cpp.md, one program, run in the root of the repository.
+# The blocks of docs/how_to/cpp.md, one program, run in the root of the repository.
 mkdir -p "$work/page"
 sed '1,/^project/s/library_example/page/' "$root/examples/library/CMakeLists.txt" >"$work/page/CMakeLists.txt"
-blocks=$(sed -n '/^```cpp$/,/^```$/{/^```/!p}' "$root/docs/cpp.md")
+blocks=$(sed -n '/^```cpp$/,/^```$/{/^```/!p}' "$root/docs/how_to/cpp.md")
 {
     grep '^#include' <<<"$blocks"
     printf '#include <cstdio>\nint main() try {\n'
@@ -83,7 +83,7 @@ blocks=$(sed -n '/^```cpp$/,/^```$/{/^```/!p}' "$root/docs/cpp.md")
 "$cmake" --build "$work/page/build" >>"$work/page.log" || { cat "$work/page.log"; exit 1; }
 ln -sfn "$root/scenes" "$work/scenes"
 printed=$(cd "$work" && page/build/example)
-[[ $printed =~ ^[0-9.]+\ 64\ free$ && -s $work/starts.nc ]] || { echo "the blocks of docs/cpp.md print $printed"; exit 1; }
+[[ $printed =~ ^[0-9.]+\ 64\ free$ && -s $work/starts.nc ]] || { echo "the blocks of docs/how_to/cpp.md print $printed"; exit 1; }
 
 cd "$work"
 awk 'BEGIN { print "joint.clearance"; for (i = 0; i < 64; ++i) printf "%.17g\n", 5e-5 + 5e-5 * i / 63 }' >clearances.csv

@@ -91,8 +91,8 @@ TEST_F(ListedKeys, AreAllInTheSchema) {
 }
 
 TEST_F(ListedKeys, AreDescribedOnTheirPage) {
-    std::string const page = file_text(std::filesystem::path(SLIDEWAY_SOURCE) / "docs/keys.md");
-    EXPECT_TRUE(page == run({"list", "--markdown"}).out) << "docs/keys.md is not of these tables; write it anew: slideway list --markdown >docs/keys.md";
+    std::string const page = file_text(std::filesystem::path(SLIDEWAY_SOURCE) / "docs/reference/keys.md");
+    EXPECT_TRUE(page == run({"list", "--markdown"}).out) << "docs/reference/keys.md is not of these tables; write it anew: slideway list --markdown >docs/reference/keys.md";
 }
 
 TEST_F(ListedKeys, OfANewRowAreEverywhere) {

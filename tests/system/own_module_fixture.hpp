@@ -34,7 +34,7 @@ protected:
         return names;
     }
 
-    /// The motor of docs/extending.md in the folder `own`.  It takes long to compile: the first test that asks does it for all of a call of
+    /// The motor of docs/how_to/extending.md in the folder `own`.  It takes long to compile: the first test that asks does it for all of a call of
     /// scripts/test.sh, or for this version of the kernels; example.sh and Python's test_modules.py among them.  They all ask for the widest
     /// instruction set; another is compiled for one test alone.
     void provide_motor(std::vector<std::string> const& isas = {best()}) const {

@@ -112,7 +112,7 @@ TEST(RigidPlanar, IsWhatTimeSteppingConvergesTo) {
     EXPECT_GT(std::log2(coarse / fine), 0.9 * 4) << coarse << " " << fine;
     EXPECT_LT(fine, 1e-3);
 
-    // Where impacts at two corners follow one another faster than the steps, which take them one by one, it comes slower: docs/rigid.md.
+    // Where impacts at two corners follow one another faster than the steps, which take them one by one, it comes slower: docs/how_to/rigid.md.
     auto const tilted = with_friction_and_spin();
     auto const of_tilted = reference(tilted, true);
     EXPECT_LT(distance_of_time_stepping(tilted, true, of_tilted, 1e-6L), 0.25 * distance_of_time_stepping(tilted, true, of_tilted, 1.6e-5L));

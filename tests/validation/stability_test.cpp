@@ -1,4 +1,4 @@
-// A method outside its stable range says so; one inside is never accused (docs/stability.md).
+// A method outside its stable range says so; one inside is never accused (docs/evidence/stability.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -106,7 +106,7 @@ double median_of_spinning(double step) {
 }
 
 TEST(TimeStepping, OfSpinningBlocksConvergesToTheirEvents) {
-    // Slower than of flat ones: impacts of two corners follow one another within a step (docs/rigid.md).
+    // Slower than of flat ones: impacts of two corners follow one another within a step (docs/how_to/rigid.md).
     double const coarse = median_of_spinning(millisecond / 64), fine = median_of_spinning(millisecond / 16384);
     EXPECT_LT(fine, 0.1 * coarse) << coarse;
     EXPECT_LT(fine, 5e-3);

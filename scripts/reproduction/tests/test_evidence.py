@@ -1,4 +1,4 @@
-"""The experiments behind docs/findings.md, at a size of seconds: every table is there, and the two that need no statistics say what they say."""
+"""The experiments behind docs/evidence/findings.md, at a size of seconds: every table is there, and the two that need no statistics say what they say."""
 
 from __future__ import annotations
 

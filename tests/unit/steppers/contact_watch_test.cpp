@@ -37,7 +37,7 @@ TEST(ContactWatch, TakesTheSpeedOfATouchAndNoneBelowTheLeast) {
         pairs.watch.update(true, end, pairs.memory, step_of_time(), remembers);
         auto const& speed = pairs.memory.impact_speed[0];
         EXPECT_EQ(speed.a, remembers ? 0.25 : 7) << "the rate at its touch";
-        EXPECT_EQ(speed.b, remembers ? 1e-4 : 7) << "slower than v0 may be (docs/model.md 4)";
+        EXPECT_EQ(speed.b, remembers ? 1e-4 : 7) << "slower than v0 may be (docs/explanation/model.md 4)";
         EXPECT_EQ(speed.c, 7) << "it does not touch";
         EXPECT_EQ(speed.d, 7) << "it parts";
     }
