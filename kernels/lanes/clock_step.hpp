@@ -29,7 +29,7 @@ public:
         begin(pack, from);
         to.faults = Faults<Real>::none();
         Pair::each_stage([&](auto s) { stage<s>(pack, from, to); });
-        for (int i = 0; i < components_; ++i) numbers_.end[i] = at_[i];
+        for (int i = 0; i < first + states_; ++i) numbers_.end[i] = at_[i];
         share_ = Real(1.0);
         whole_ = step_.own;
         finish(to);
@@ -40,11 +40,11 @@ public:
     SLIDEWAY_NOINLINE void look_inside(Pack<Model, Real>& pack, StepStart<Model, Real> const& from,
                                        Attempt<Model, Real>& to, Mask<Real> lanes) {
         Real const half(0.5);
-        for (int i = 0; i < components_; ++i) at_[i] = numbers_.at(i, whole_, half);
+        for (int i = 0; i < first + states_; ++i) at_[i] = numbers_.at(i, whole_, half);
         pack.tell_stages(true);
         auto const slopes = evaluate(pack, from, to, lanes, false);
         pack.tell_stages(false);
-        for (int i = 0; i < components_; ++i) numbers_.set_middle(lanes, i, whole_, slopes.of[i]);
+        for (int i = 0; i < first + states_; ++i) numbers_.set_middle(lanes, i, whole_, slopes.of[i]);
         if (from.needs.stages) integrals_.middle(pack, to.report, slopes.of[time], lanes, whole_);
     }
 
@@ -53,7 +53,7 @@ public:
                                      Attempt<Model, Real>& to, Mask<Real> lanes, Real share) {
         share_ = select(lanes, share, share_);
         auto const early = share_ < Real(1.0);
-        for (int i = 0; i < components_; ++i) at_[i] = select(early, numbers_.at(i, whole_, share_), numbers_.end[i]);
+        for (int i = 0; i < first + states_; ++i) at_[i] = select(early, numbers_.at(i, whole_, share_), numbers_.end[i]);
         evaluate(pack, from, to, lanes, true);
         step_.own = whole_ * share_;
         finish(to);
@@ -72,13 +72,13 @@ public:
     /// Error estimates of the components at the time of the step's end: that of the time counts with the rates there.
     SLIDEWAY_HD void errors(Attempt<Model, Real> const& to, Real* of_state) const {
         Real const of_time = select(step_.start.runs(), Pair::error_slope(numbers_.k, time), Real(0.0));
-        for (int i = first; i < components_; ++i) of_state[i - first] = step_.own * fnma(to.end_rates[i - first], of_time, Pair::error_slope(numbers_.k, i));
+        for (int i = first; i < first + states_; ++i) of_state[i - first] = step_.own * fnma(to.end_rates[i - first], of_time, Pair::error_slope(numbers_.k, i));
     }
 
     /// The state inside the step, at fraction θ of its time.
     SLIDEWAY_HD void dense(StepStart<Model, Real> const&, Attempt<Model, Real> const& to, Real theta, Real* state) const {
         Real const share = share_at(to.step, theta);
-        for (int i = first; i < components_; ++i) state[i - first] = numbers_.at(i, whole_, share);
+        for (int i = first; i < first + states_; ++i) state[i - first] = numbers_.at(i, whole_, share);
     }
 
 private:
@@ -93,8 +93,8 @@ private:
         Real const pace = step_.pace_at_start();
         memory_ = from.memory;
         memory_.clock = clock.pair;
-        components_ = first + pack.states();
-        for (int i = first; i < components_; ++i) {
+        states_ = pack.states();
+        for (int i = first; i < first + states_; ++i) {
             numbers_.start[i] = from.y[i - first];
             numbers_.k[0][i] = pace * from.rates[i - first];
         }
@@ -110,7 +110,7 @@ private:
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr bool last = s + 1 == Pair::stages;
         pack.tell_stages(!last);
-        Pair::template stage_state<s>(numbers_.start, numbers_.k, step_.own, at_, components_);
+        Pair::template stage_state<s>(numbers_.start, numbers_.k, step_.own, at_, first + states_);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         to.faults =
             to.faults.or_else(evaluate_at(pack, from, to, last ? from.needs.ends : from.needs.stages, numbers_.k[s], last));
@@ -125,10 +125,10 @@ private:
         memory_.clock_depth = u * u;
         // Who goes out there is out: what follows then has its derivative already.  Not quite zero, for means of depths divide by their sum.
         if (at_end && !from.needs.switches) memory_.clock_depth = select(step_.is_little(u), Real(1e-30), memory_.clock_depth);
-        Real& of_clock = rates_[components_ - first];
+        Real& of_clock = rates_[states_];
         of_clock = Real(0.0);
         auto const faults = pack.evaluate(from.t + at_[time], at_ + first, memory_, rates_, report_wanted, to.report);
-        for (int i = first; i < components_; ++i) slopes[i] = pace * rates_[i - first];
+        for (int i = first; i < first + states_; ++i) slopes[i] = pace * rates_[i - first];
         slopes[time] = pace;
         slopes[root] = step_.root_rate_by(evenness, of_clock);
         return faults;
@@ -145,9 +145,9 @@ private:
 
     /// The attempt's end, which is where the derivative was evaluated last.
     SLIDEWAY_HD void finish(Attempt<Model, Real>& to) {
-        for (int i = first; i < components_; ++i) to.end[i - first] = at_[i], to.end_rates[i - first] = rates_[i - first];
+        for (int i = first; i < first + states_; ++i) to.end[i - first] = at_[i], to.end_rates[i - first] = rates_[i - first];
         to.step = select(step_.own > Real(0.0), at_[time], step_.own);
-        step_.end = {step_.start.pair, at_[root], select(step_.start.runs(), rates_[components_ - first], Real(0.0))};
+        step_.end = {step_.start.pair, at_[root], select(step_.start.runs(), rates_[states_], Real(0.0))};
     }
 
     /// Share of the whole step by its clock at fraction θ of the time of its end: Newton's method on the continuous extension of t.
@@ -172,7 +172,7 @@ private:
     Real whole_, share_;                           // of the step by its clock: as it was tried, and what is left of it
     Real at_[components];                          // where the derivative is evaluated
     Real rates_[size + 1];                         // the derivative there, and the clock's
-    int components_ = components;
+    StateCount<Model> states_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -85,7 +85,7 @@ private:
     StepIntegrals<Pair, Model, Real> integrals_;  // if needs.stages
     Real whole_, share_;                          // the step as it was tried [s], and what is left of it
     Real at_[size];                               // where a stage evaluates the derivative
-    int states_ = size;
+    StateCount<Model> states_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -84,7 +84,7 @@ private:
     }
 
     PairNumbers const* pair_ = nullptr;
-    int states_ = size;
+    StateCount<Model> states_;
     Real k_[PairNumbers::most_stages][size];
     Real at_[size];        // where a stage evaluates the derivative
     Mask<Real> prepared_;  // lanes whose continuous extension is complete

@@ -38,11 +38,19 @@ struct ModelDefaults {
     template <class... Offset> SLIDEWAY_FN static void keep_offset(Offset const&...) {}
 };
 
-/// How many components a model's state has: `size`; or where the model says it, which looks its equations up, as many as that at most.
-template <class Model> SLIDEWAY_FN int states_of([[maybe_unused]] Model const& model) {
-    if constexpr (requires { model.states(); }) return model.states();
-    else return Model::size;
-}
+/// How many components a model's state has: `size`, a constant; or where the model says it, which looks its equations up, as many as that at most.
+template <class Model> class StateCount {
+public:
+    StateCount() = default;
+    SLIDEWAY_FN explicit StateCount([[maybe_unused]] Model const& model) {
+        if constexpr (is_said) said_ = model.states();
+    }
+    SLIDEWAY_FN operator int() const { return is_said ? said_ : Model::size; }
+
+private:
+    static constexpr bool is_said = requires(Model const& model) { model.states(); };
+    int said_ = Model::size;
+};
 
 /// Whether a model's accelerations may be asked for, and its forces: it names an `Accelerations<Real>`, a `Forces<Real>`.
 template <class Model> concept HasAccelerations = requires { typename Model::template Accelerations<double>; };

@@ -73,7 +73,7 @@ private:
 
     static constexpr bool is_rate(int i) { return (Model::rate_components >> i & 1u) != 0; }
 
-    int states_ = size;
+    StateCount<Model> states_;
     Real rates_[size];  // of places in the second half of the step, of rates without impulses
 };
 

@@ -34,7 +34,7 @@ template <class Model> struct NewMember {
         r.constants.turns = clock.turns;
         r.constants.first_back = clock.first_back;
         r.constants.start_angle = c.y[crank_place<Model, 0>];
-        if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member, states_of(model));
+        if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member, StateCount<Model>(model));
         if constexpr (HasClocks<Model>) c.clocked = {0.0, c.h, 0.0, 0.0, 0.0};
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;

@@ -37,7 +37,7 @@ template <class Model, class Real> struct Pack {
     Real coarse_audit_error[room(Observer::audit_integrals)];  // of the second estimate, of a method that has two
 
     /// How many components the state has, of room for `size`.
-    SLIDEWAY_FN int states() const { return states_of(model); }
+    SLIDEWAY_FN StateCount<Model> states() const { return StateCount<Model>(model); }
 
     /// Where the members' next step starts.
     SLIDEWAY_FN StepStart<Model, Real> start() const {

@@ -57,7 +57,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
     telling.tell_forces(true);
     constexpr int width = lanes<Real>;
     constexpr int size = Model::size;
-    int const n = states_of(model);
+    StateCount<Model> const n(model);
     SLIDEWAY_EXPECT(table.rows == 0 || (table.inputs != nullptr && table.times != nullptr && table.results != nullptr));
     typename Model::template Parameters<Real> p;
     typename Model::template Report<Real> report;

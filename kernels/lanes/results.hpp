@@ -12,7 +12,7 @@ template <class Model> class Results {
 public:
     using Block = BlockOf<typename Model::Inputs>;
 
-    SLIDEWAY_HD Results(Block& block, Model const& model) : block_(block), sampler_(block, model), states_(static_cast<std::size_t>(states_of(model))) {}
+    SLIDEWAY_HD Results(Block& block, Model const& model) : block_(block), sampler_(block, model), states_(model) {}
 
     SLIDEWAY_HD std::size_t samples() const { return block_.samples; }
     SLIDEWAY_HD std::size_t stops() const { return block_.stops.count; }
@@ -52,9 +52,9 @@ public:
             if (!holds(at, i) || section == StopPlan::nowhere) continue;
             SLIDEWAY_EXPECT(number(c.member, i) < block_.members && section < plan.sections());
             double* const row =
-                block_.section_values + (number(c.member, i) * plan.sections() + section) * (1 + states_);
+                block_.section_values + (number(c.member, i) * plan.sections() + section) * width();
             row[0] = lane(c.t, i);
-            for (std::size_t j = 0; j < states_; ++j) row[1 + j] = lane(c.y[j], i);
+            for (int j = 0; j < states_; ++j) row[1 + j] = lane(c.y[j], i);
         }
     }
 
@@ -67,9 +67,9 @@ public:
         for (int i = 0; i < lanes<Real>; ++i) {
             std::size_t const place = number(c.crossings, i), room = block_.crossings.room;
             if (!holds(at, i) || place >= room) continue;
-            double* const row = block_.section_values + (number(c.member, i) * room + place) * (1 + states_);
+            double* const row = block_.section_values + (number(c.member, i) * room + place) * width();
             row[0] = lane(t, i);
-            for (std::size_t j = 0; j < states_; ++j) row[1 + j] = lane(state[j], i);
+            for (int j = 0; j < states_; ++j) row[1 + j] = lane(state[j], i);
         }
         c.crossings = c.crossings + count<Real>(at);
     }
@@ -205,7 +205,7 @@ public:
                 block_.records[member].grown_offsets = number(c.shadowed.grown, i);
                 block_.records[member].growth_from = lane(c.shadowed.from, i);
             }
-            for (std::size_t j = 0; j < states_; ++j) block_.final_states[member * states_ + j] = lane(c.y[j], i);
+            for (int j = 0; j < states_; ++j) block_.final_states[member * (width() - 1) + static_cast<std::size_t>(j)] = lane(c.y[j], i);
             if (block_.quantities != 0) {
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;
                 pack.state.observation.observer.finish(i, time, block_.quantities,
@@ -226,6 +226,8 @@ public:
     }
 
 private:
+    /// Numbers of a time and a state.
+    SLIDEWAY_FN std::size_t width() const { return 1 + static_cast<std::size_t>(int(states_)); }
     static constexpr double endless = 1e300;
 
     template <class Real> SLIDEWAY_HD Real next_stop(MemberState<Model, Real> const& s, Real first) const {
@@ -244,10 +246,10 @@ private:
         StopPlan const& plan = block_.stops;
         std::size_t const past = from > plan.transient ? from - plan.transient : 0;  // recorded stops behind it
         if (block_.crossings.room > 0) {
-            fill(block_.section_values, member, block_.crossings.room, crossings, 1 + states_);
+            fill(block_.section_values, member, block_.crossings.room, crossings, width());
         } else if (block_.section_values != nullptr) {
             std::size_t const taken = (past + plan.section_every - 1) / plan.section_every;
-            fill(block_.section_values, member, plan.sections(), taken, 1 + states_);
+            fill(block_.section_values, member, plan.sections(), taken, width());
         }
         if (block_.growth_values != nullptr) {
             std::size_t const from_growth = plan.growth_from() + 1;
@@ -271,7 +273,7 @@ private:
 
     Block& block_;
     Sampler<Model> sampler_;
-    std::size_t states_;
+    StateCount<Model> states_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

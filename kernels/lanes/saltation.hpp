@@ -34,7 +34,7 @@ public:
 
     /// @param in lanes where `settle` changes something  @param at_start whether it does so before the first step: at no other time then
     SLIDEWAY_HD Saltation(Model const& model, Parameters const& p, Before const& before, Mask<Real> in, bool at_start)
-        : model_(model), before_(before), in_(in), at_start_(at_start), states_(states_of(model)) {
+        : model_(model), before_(before), in_(in), at_start_(at_start), states_(model) {
         lift(p, p_);
         lift(before.memory, memory_);
         for (int i = 0; i < states_; ++i) flow_[i] = before.rates[i];
@@ -187,7 +187,7 @@ private:
     Before const before_;
     Mask<Real> const in_;
     bool const at_start_;
-    int const states_;
+    StateCount<Model> const states_;
     typename Model::template Parameters<Number> p_;
     typename Model::template Memory<Number> memory_;
     Real flow_[size];  // derivative before the event

@@ -133,7 +133,7 @@ private:
     Real at_[size];  // where a stage evaluates the derivative
     Real drift_[size], bend_[size];  // of an equilibrium that moves
     Real hg_, residual_;
-    int states_ = size;
+    StateCount<Model> states_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -92,7 +92,7 @@ struct MechanismTable : Base, ForceLanes<Base, Signals>, ConditionsOfBlock<LawFu
         : ConditionsOfBlock<LawFunctions<Real>>{{}, conditions}, functions(of_mechanism),
           lean(functions.lean[static_cast<int>(conditions.extras())]), full(functions.full[static_cast<int>(conditions.extras())]) {}
 
-    int states() const { return Base::size == size ? size : functions.state.count; }
+    int states() const requires(Base::size != size) { return functions.state.count; }
     Parameters<double> parameters(Inputs const& inputs) const { return functions.parameters(inputs); }
     void scales(Parameters<double> const& p, double* scale) const { functions.state.scales(p, scale); }
     void initial_state(Inputs const& inputs, double* state) const { functions.state.start(inputs, state); }

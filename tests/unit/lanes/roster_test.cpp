@@ -35,7 +35,7 @@ TEST(Roster, LeadsWithTheMemberFurthestBehind) {
     TestRoster roster;
     for (int seat = 0; seat < seats; ++seat) roster[seat] = {Kind::explicit_pair, 0, 1.0 + (seat * 7) % seats};
     EXPECT_EQ(chosen_of(roster)[0], 0);
-    roster[11].time = 0.5;
+    roster[11].share = 0.5;
     EXPECT_EQ(chosen_of(roster)[0], 11);
 }
 
