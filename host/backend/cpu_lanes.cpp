@@ -2,7 +2,7 @@
 #include "host/backend/cpu_lanes.hpp"
 
 #include "kernels/integrate.hpp"
-#include "kernels/lanes/probe.hpp"
+#include "kernels/models/probe.hpp"
 #include "kernels/models/planar_lanes.hpp"
 #include "kernels/models/shadowed.hpp"
 #ifdef SLIDEWAY_HEADER

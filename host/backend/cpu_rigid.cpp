@@ -7,7 +7,7 @@
 #include "kernels/integrate.hpp"
 #include "kernels/isa_real.hpp"
 #include "kernels/mechanisms/list.hpp"
-#include "kernels/lanes/probe.hpp"
+#include "kernels/models/probe.hpp"
 #include "kernels/models/shadowed.hpp"
 #include "kernels/rigid/joint_offset.hpp"
 #include "kernels/rigid/planar_slider_crank.hpp"

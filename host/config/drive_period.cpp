@@ -106,7 +106,12 @@ PeriodRange drive_periods(Scene const& scene) {
 }
 
 double fastest_period(Scene const& scene) {
-    if (scene.parts.drive.by == DriveBy::speed) return scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(scene.parts, scene.inputs);
+    if (scene.parts.drive.by == DriveBy::speed) {
+        // What scatters by less has the steps of the scene's own member.
+        constexpr double little = 0.8;
+        double const own = drive_period(scene.parts, scene.inputs), least = drive_periods(scene).least;
+        return scene.study == StudyKind::sweep || least < little * own ? least : own;
+    }
     auto const largest = [&](std::string_view name) {
         Key const& key = *find_key(name);
         auto const varied = magnitudes(scene, key);

@@ -123,7 +123,7 @@ struct PeriodRange {
     Key const* varied;  // why they may differ between members; nullptr: they do not
 };
 PeriodRange drive_periods(Scene const& scene);
-/// That of the drive at its fastest: a sweep goes by its fastest column, a profile by where it is steepest, a motor by the faster of its start and
+/// That of the drive at its fastest: a sweep goes by its fastest column, draws by the fastest member, a profile by where it is steepest, a motor by the faster of its start and
 /// its no-load speed; infinite of what is at rest.
 double fastest_period(Scene const& scene);
 /// The least reversal_time that members of a carriage may have [s], > 0.

@@ -48,14 +48,19 @@ double read_end_time(Reading const& reading) {
     bool const has_limit = reading.given("study.time_limit") != nullptr;
     if (node == nullptr) scene.chaos.span = {1, has_limit || std::isfinite(turn)};
     if (has_limit) return scene.integrator.end_time;
-    double const seconds = scene.chaos.span.seconds(turn);
+    auto const periods = drive_periods(scene);
+    bool const differ = scene.chaos.span.revolutions && periods.varied != nullptr;
+    double const longest = differ ? periods.most : turn, seconds = scene.chaos.span.seconds(longest);
     if (seconds > 0 && seconds <= longest_time) return seconds;
-    std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn), advice = fmt::format("stay below {} s", longest_time);
+    std::string const of = differ ? fmt::format(" of the slowest member, whose {} is drawn", periods.varied->name) : "";
+    std::string const reason = fmt::format("it lasts {} s, with {} s for each{}", seconds, longest, of), advice = fmt::format("stay below {} s", longest_time);
     if (node != nullptr) refuse(*node, {reason, advice});
     throw SceneError(fmt::format("{}: study.revolutions is 1 ({}); {}", reading.root.where, reason, advice));
 }
 
 void check_drive_is_resolved(Reading const& reading, double seconds) {
+    // A crank that turns freely ends after its turns, however long it may take.
+    if (reading.scene.goes_by_turns()) seconds = reading.scene.chaos.span.seconds(steady_period(reading.scene.parts, reading.scene.inputs));
     auto const problem = unresolved_drive(reading.scene.parts, reading.scene.inputs, seconds);
     if (!problem) return;
     if (Node const* const node = reading.given_of({"study.revolutions", "study.duration"})) refuse(*node, *problem);
@@ -97,7 +102,11 @@ void read_times(Reading const& reading, double end) {
     Scene& scene = reading.scene;
     double const length = scene.goes_by_turns() ? scene.chaos.span.seconds(turn_length(scene)) : end;
     scene.sample_times = uniform_times(length, read_samples(reading, length));
-    if (!scene.goes_by_turns()) scene.chaos.span = {end, false};
+    if (scene.goes_by_turns()) return;
+    Key const* const varied = drive_periods(scene).varied;
+    if (!scene.chaos.span.revolutions || varied == nullptr) scene.chaos.span = {end, false};
+    else if (Node const* const samples = reading.given_of({"study.samples", "study.samples_per_revolution"}); samples != nullptr && !scene.sample_times.empty())
+        refuse(*samples, {fmt::format("members are sampled at common times, and their revolutions last differently: {} is drawn", varied->name), "use study.duration in place of study.revolutions"});
 }
 
 Problem const untold_by_rigid_contacts{"rigid contacts tell their normal forces in sum alone", "remove it, or use another contact.law"};

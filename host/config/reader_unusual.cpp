@@ -42,7 +42,9 @@ bool check(Reading& reading, Told& told, std::string_view where, std::string_vie
 
 /// Of numbers together, where none of them is unusual alone.  @param where "": where the scene gives the key
 bool check_pair(Reading& reading, Told& told, std::string where, Inputs const& inputs) {
-    auto const found = unusual_pair(inputs, reading.scene.parts);
+    Parts parts = reading.scene.parts;
+    if (reading.scene.integrator.method == Method::moreau_jean) parts.friction = false;  // it has one coefficient
+    auto const found = unusual_pair(inputs, parts);
     if (!found) return false;
     Key const& key = *found->first;
     if (std::ranges::any_of(told, [&](Key const* other) { return other->overlaps(key); })) return true;

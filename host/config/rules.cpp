@@ -24,7 +24,11 @@ bool by_turns(R r) { return turns_freely(r) && r.given("study.time_limit"); }
 bool turns(R r) { return by_turns(r) || std::isfinite(drive_period(r.scene.parts, r.scene.inputs)); }
 bool to_end(R r) { return runs_to_end(r.scene.study); }
 bool is_sweep(R r) { return r.scene.study == StudyKind::sweep; }
-bool asks_for_exponents(R r) { return is_sweep(r) || r.scene.study == StudyKind::lyapunov; }
+bool may_have_exponents(R r) { return is_sweep(r) || r.scene.study == StudyKind::lyapunov; }
+bool asks_for_exponents(R r) {
+    Node const* const count = is_sweep(r) ? r.given("study.exponents") : nullptr;
+    return may_have_exponents(r) && (count == nullptr || read_count(*count, setting("study.exponents").what, 0, most_shadows) > 0);
+}
 bool of(R r, DesignKind design) { return r.scene.design.kind == design; }
 bool by(R r, Method method) { return r.scene.integrator.method == method; }
 bool by_restitution(R r) { return r.scene.parts.damping == Damping::restitution; }
@@ -32,8 +36,8 @@ bool gives_restitution(R r) { return by_restitution(r) && r.given("contact.resti
 bool at_rest(R r) { return !turns(r); }
 bool by_phase(R r) { return (is_sweep(r) || r.scene.study == StudyKind::poincare) && r.scene.chaos.section.is_phase(); }
 bool no_values(R r) { return is_sweep(r) && !r.given("study.values"); }
-bool no_exponents(R r) { return asks_for_exponents(r) && r.scene.chaos.exponents == 0; }
-bool several_exponents(R r) { return asks_for_exponents(r) && r.scene.chaos.exponents > 1; }
+bool no_exponents(R r) { return may_have_exponents(r) && r.scene.chaos.exponents == 0; }
+bool several_exponents(R r) { return may_have_exponents(r) && r.scene.chaos.exponents > 1; }
 bool is_whole(Span const& span) { return span.revolutions && span.value == std::floor(span.value); }
 bool begins_anywhere(R r) { return is_sweep(r) && r.scene.chaos.continued && r.scene.chaos.transient.value != 0 && !is_whole(r.scene.chaos.transient); }
 /// Of a crank that turns freely its speed is where it starts.
@@ -159,7 +163,7 @@ constexpr KeyRule rows[] = {
     {study_kind, "study.kind", [](R r) { return asks_for_exponents(r) && !info(r.scene.parts.mechanism).has_exponents; }, excludes,
      "nothing drives a {mechanism}, and no exponents are computed of it", "use \"ensemble\" or \"poincare\""},
     {study_kind, "study.kind", [](R r) { return asks_for_exponents(r) && rigid(r) && info(r.scene.parts.mechanism).driven_form != nullptr; }, excludes,
-     "with rigid contacts no exponents are computed of a {kind} whose crank turns freely", "use \"ensemble\", another contact.law, or mechanism.kind = planar_slider_crank"},
+     "with rigid contacts no exponents are computed of a {kind} whose crank turns freely", "use \"ensemble\", exponents = 0 in a sweep, another contact.law, or mechanism.kind = planar_slider_crank"},
     {study_kind, "study.parameter", is_sweep, needs, "a sweep changes one key", "add parameter = \"joint.clearance\""},
     {study_kind, "study.from", no_values, needs, values_of_sweep, give_values},
     {study_kind, "study.to", no_values, needs, values_of_sweep, give_values},

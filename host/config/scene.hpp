@@ -141,6 +141,8 @@ struct Scene {
     /// Whether members end, stop and are sampled by what their crank has turned (BlockBase::by_turns): revolutions of one that turns freely.  Sample
     /// times are then angles [rad], and integrator.end_time is study.time_limit.
     bool goes_by_turns() const { return parts.drive.turns_freely() && chaos.span.revolutions; }
+    /// Whether each member of an ensemble or a tolerance study ends after revolutions of its own drive, whose periods differ.
+    bool has_own_ends() const { return runs_to_end(study) && chaos.span.revolutions && !goes_by_turns(); }
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set key=value, in order

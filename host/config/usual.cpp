@@ -95,6 +95,15 @@ std::optional<std::pair<Key const*, std::string>> unusual_pair(Inputs const& inp
         return std::pair{&key, fmt::format("is {} (usually less than a tenth of the {}, {:.4g} m); is its unit right?", with_unit(clearance, key.unit),
                                              spatial ? "way" : "slider", smallest / 10)};
     }
+    static Key const* const inertias[] = {find_key("mechanism.slider_inertia_x"), find_key("mechanism.slider_inertia_y"), find_key("mechanism.slider_inertia_z")};
+    for (Key const* const one : inertias) {
+        double const own = one->get(in), others = (inertias[0]->get(in) + inertias[1]->get(in) + inertias[2]->get(in)) - own;
+        if (!spatial || !(own > others * (1 + 1e-9))) continue;
+        return std::pair{one, fmt::format("is {} (a rigid body has at most the sum of the other two, {:.4g} {})", with_unit(own, one->unit), others, one->unit)};
+    }
+    static Key const& at_rest = *find_key("friction.static");
+    if (parts.friction && in.friction_static < in.friction_kinetic)
+        return std::pair{&at_rest, fmt::format("is {:g} (usually not below friction.kinetic, {:g}); give both", in.friction_static, in.friction_kinetic)};
     constexpr double fastest = 1000;  // [m/s]
     static Key const& turning = *find_key("mechanism.crank_speed");
     double const speed = std::abs(in.crank_speed) * in.crank_length;

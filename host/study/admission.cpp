@@ -1,6 +1,8 @@
 #include "host/study/admission.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,6 +20,7 @@ struct Start {
     std::uint64_t member;
     double play;                  // the smaller one [m]
     double preload_y, preload_z;  // how deep a slider in the middle is [m]
+    double into_stops;            // [m]
     ProbeResult at;
 
     double depth() const {
@@ -25,7 +28,8 @@ struct Start {
         for (int apex = 0; apex < 8; ++apex) deepest = std::max({deepest, at.penetration_y[apex] - preload_y, at.penetration_z[apex] - preload_z});
         return deepest;
     }
-    bool is_inside() const { return depth() > deepest_start * play; }
+    double deepest() const { return std::max(depth(), into_stops); }
+    bool is_inside() const { return deepest() > deepest_start * play; }
     bool is_nowhere() const { return at.status != Status::finished; }
 };
 
@@ -37,6 +41,23 @@ struct Look {
     std::string why_invalid;
     std::optional<std::pair<std::uint64_t, Problem>> unresolved;  // the first whose drive is not
 };
+
+/// How deep members start in stops, at least: by the energy that one as stiff as the stiffest would have.
+void look_into_stops(Scene const& scene, Isa isa, std::vector<Inputs> const& inputs, std::vector<Start>& starts) {
+    std::vector<Load> stops;
+    std::copy_if(scene.parts.loads.loads, scene.parts.loads.loads + scene.parts.loads.count, std::back_inserter(stops),
+                 [](Load const& load) { return load.kind == LoadKind::stop; });
+    if (stops.empty()) return;
+    Parts with = scene.parts, without = scene.parts;
+    with.loads = {stops.data(), static_cast<int>(stops.size())}, without.loads = {};
+    std::vector<double> const times(inputs.size(), 0.0);
+    std::vector<ProbeResult> const stopped = probe(isa, with, inputs, times), free = probe(isa, without, inputs, times);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        double stiffest = 0;
+        for (Load const& stop : stops) stiffest = std::max(stiffest, inputs[i].*load_inputs[stop.stiffness]);
+        starts[i].into_stops = std::sqrt(2 * std::max(stopped[i].energy - free[i].energy, 0.0) / stiffest);
+    }
+}
 
 Look look_at(Scene const& scene, Isa isa) {
     Look look;
@@ -56,20 +77,24 @@ Look look_at(Scene const& scene, Isa isa) {
             if (problem) look.unresolved = {member, *std::move(problem)};
         }
         double const y = mean_clearance_y(drawn), z = spatial ? mean_clearance_z(drawn) : y;
-        starts.push_back({member, std::min(play(y), play(z)), std::max(-y, 0.0), std::max(-z, 0.0), {}});
+        starts.push_back({member, std::min(play(y), play(z)), std::max(-y, 0.0), std::max(-z, 0.0), 0, {}});
         inputs.push_back(drawn);
     }
     std::vector<ProbeResult> const results = probe(isa, scene.parts, inputs, std::vector<double>(inputs.size(), 0.0));
     for (std::size_t i = 0; i < starts.size(); ++i) starts[i].at = results[i];
+    look_into_stops(scene, isa, inputs, starts);
     return look;
 }
 
 std::string depth_text(Start const& start) {
+    if (start.into_stops > start.depth()) return fmt::format("by {:.3g} mm", 1e3 * start.into_stops);
     double const energy = start.at.contact_potential;
     return fmt::format("by {:.3g} mm{}", 1e3 * start.depth(), energy > 0 ? fmt::format(", with {:.3g} J in its contacts", energy) : "");
 }
 
-constexpr std::string_view deep = "inside the way, deeper than a tenth of the clearance";
+std::string deep(Start const& start) {
+    return fmt::format("inside {}, deeper than a tenth of the clearance", start.into_stops > start.depth() ? "a stop" : "the way");
+}
 
 /// Where a row stands: "members.csv:4".
 std::string place_of_row(Scene const& scene, std::uint64_t member) {
@@ -83,7 +108,7 @@ std::optional<std::string> broken_row(Scene const& scene, std::vector<Start> con
         if (!start.is_inside() && !start.is_nowhere()) continue;
         std::string const where = place_of_row(scene, start.member);
         if (start.is_nowhere()) return fmt::format("{}: its mechanism cannot be evaluated at the start ({})", where, name_of(start.at.status));
-        return fmt::format("{}: its member starts {}: {}", where, deep, depth_text(start));
+        return fmt::format("{}: its member starts {}: {}", where, deep(start), depth_text(start));
     }
     return {};
 }
@@ -101,11 +126,11 @@ std::optional<std::string> broken_draws(Scene const& scene, std::vector<Start> c
         return fmt::format("member {} cannot be evaluated at the start ({})", first.member, name_of(first.at.status));
     }
     if (inside == 0) return {};
-    auto const deeper = [](Start const& a, Start const& b) { return (a.is_inside() ? a.depth() : 0) < (b.is_inside() ? b.depth() : 0); };
+    auto const deeper = [](Start const& a, Start const& b) { return (a.is_inside() ? a.deepest() : 0) < (b.is_inside() ? b.deepest() : 0); };
     Start const& worst = *std::ranges::max_element(starts, deeper);
     std::string const which = all == 1 ? std::string("it starts")
                                        : fmt::format("{} of {} members{} start", inside, looked, looked < all ? " that were looked at" : "");
-    return fmt::format("{} {}: member {} {}", which, deep, worst.member, depth_text(worst));
+    return fmt::format("{} {}: member {} {}", which, deep(worst), worst.member, depth_text(worst));
 }
 
 bool is_of_a_file(Scene const& scene) { return scene.design.table != nullptr && !scene.design.table->lines.empty(); }
@@ -139,8 +164,9 @@ std::optional<std::string> admit(Scene const& scene, bool any_start) {
     if (!wrong) return invalid_draws(scene, look);
     if (any_start) return wrong;
     bool const has_place = is_of_a_file(scene);
-    throw SceneError(fmt::format("{}{}; change {}, or add --any-start", has_place ? "" : scene.path + ": ", *wrong,
-                                 has_place ? "the row" : "[initial], [joint] or [mechanism]"));
+    bool const has_ends = scene.parts.loads.find(LoadKind::way_ends) != nullptr;
+    std::string const scene_parts = fmt::format("[initial], [joint]{} or [mechanism]", has_ends ? ", [way_ends], off which it may begin," : "");
+    throw SceneError(fmt::format("{}{}; change {}, or add --any-start", has_place ? "" : scene.path + ": ", *wrong, has_place ? "the row" : scene_parts));
 }
 
 }  // namespace slideway

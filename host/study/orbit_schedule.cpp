@@ -160,6 +160,8 @@ OrbitSchedule orbit_schedule(Scene const& scene) {
         MemberClock const of_all = by_turns({.end = scene.chaos.span.seconds(turn_length(scene))}, 0, scene.integrator.end_time);
         schedule.timing = [of_all](Inputs const&) { return of_all; };
     }
+    if (scene.has_own_ends())
+        schedule.timing = [parts = scene.parts, span = scene.chaos.span](Inputs const& in) { return MemberClock{.end = span.seconds(drive_period(parts, in))}; };
     schedule.by_turns = scene.goes_by_turns();
     schedule.end = schedule.timing ? schedule.timing(scene.inputs).end : scene.integrator.end_time;
     schedule.turns = (schedule.by_turns ? least_turned(schedule, scene) : schedule.end) / turn_length(scene);

@@ -23,7 +23,7 @@ struct OrbitSchedule {
     std::size_t section_rows() const { return !sections ? 0 : crossings.room > 0 ? crossings.room : stops.sections(); }
 };
 
-/// Of an ensemble: its end alone.
+/// Of an ensemble its end alone, by revolutions that differ each member's own.
 OrbitSchedule orbit_schedule(Scene const& scene);
 
 /// Shadows as a study asks for them, without directions.

@@ -199,7 +199,8 @@ public:
         Real const damping_loss = integral_[place_of<Quantity::damping_loss>];
         Real const works = integral_[place_of<Quantity::load_work>] + integral_[place_of<Quantity::ground_work>];
         return {energy_ - start_energy_, drive_work, friction_loss, damping_loss, works, integral_[place_of<Quantity::spring_loss>],
-                integral_[place_of<Quantity::film_loss>], integral_[turnover], largest_potential_, made_, astray_, exchanged_};
+                integral_[place_of<Quantity::film_loss>], integral_[turnover], largest_potential_, made_, astray_, exchanged_,
+                max(abs(energy_), abs(start_energy_))};
     }
 
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.

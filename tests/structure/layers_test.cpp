@@ -70,7 +70,7 @@ TEST(LayerRules, VocabularyIncludesNothingOfOurs) {
 }
 
 TEST(LayerRules, PlainDataIsForEveryoneAndIncludesPlainDataOnly) {
-    EXPECT_TRUE(include_violations(including("kernels/lanes/probe.hpp", "kernels/block.hpp")).empty());
+    EXPECT_TRUE(include_violations(including("kernels/models/probe.hpp", "kernels/block.hpp")).empty());
     EXPECT_TRUE(include_violations(including("host/store/writer.cpp", "kernels/observers/quantities.hpp")).empty());
     EXPECT_TRUE(include_violations(including("kernels/block.hpp", "kernels/status.hpp")).empty());
     EXPECT_EQ(include_violations(including("kernels/block.hpp", "kernels/real.hpp")).size(), 1u);

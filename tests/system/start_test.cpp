@@ -19,6 +19,18 @@ TEST_F(Starts, InsideTheWayAreRefusedByCheckAndRun) {
     EXPECT_EQ(run({"check", "s.toml", "--set", "initial.z=-0.10001 mm"}).code, 0);
 }
 
+TEST_F(Starts, InsideAStopOrOffTheWayAreRefused) {
+    std::string const head = "schema = 1\n[mechanism]\nkind = \"free_slider\"\n[contact]\nlaw = \"foundation\"\nrestitution = 0.5\n[study]\nduration = 0.1\n";
+    auto const stop = [&](double position) { return head + fmt::format("[stop.a]\nblocks = \"+x\"\nposition = {}\nstiffness = 1e9\n", position); };
+    write("stop.toml", stop(-1e-3));
+    expect_refusal(2, "it starts inside a stop, deeper than a tenth of the clearance: member 0 by 1 mm", {"check", "stop.toml"});
+    EXPECT_EQ(run({"check", "stop.toml", "--any-start"}).code, 0);
+    write("stop.toml", stop(1e-3));
+    EXPECT_EQ(run({"check", "stop.toml"}).code, 0);
+    write("ends.toml", head + "[way_ends]\nfrom = 0.5\n");
+    expect_refusal(2, "[way_ends], off which it may begin,", {"check", "ends.toml"});
+}
+
 TEST_F(Starts, OfAFewMembersAreCounted) {
     std::vector<std::string> const some{"--set", "study.vary.\"initial.y\"={dist=\"unif\", low=\"0 mm\", high=\"0.2 mm\"}"};
     std::vector<std::string> words{"check", "s.toml"};

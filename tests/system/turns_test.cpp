@@ -57,6 +57,65 @@ TEST_F(ByTurns, FilesHaveAnglesOfSamplesAndTimesOfMembers) {
     EXPECT_EQ(probed.code, 0) << probed.err;
 }
 
+/// A heavy flywheel turns freely with a light slider, whose contacts take next to nothing of its energy: rounding of that is no instability.
+TEST_F(ByTurns, ALightSliderOnAHeavyFlywheelIsStable) {
+    for (std::string const& kind : {std::string("scotch_yoke"), std::string("planar_slider_crank")}) {
+        for (std::string const& law : {std::string("foundation"), std::string("rigid")}) {
+            if (kind != "scotch_yoke" && law != "rigid") continue;
+            ResultReader const file = results_of(fmt::format(
+                "schema = 1\n[mechanism]\nkind = \"{}\"\ncrank_speed = \"60 rpm\"\nslider_mass = 0.1\n[drive]\nkind = \"free\"\ninertia = 5\n"
+                "[joint]\nclearance = \"10 um\"\n[contact]\nlaw = \"{}\"\nrestitution = 0.5\n[initial]\ny = \"-10 um\"\n"
+                "[study]\nrevolutions = 3\ntime_limit = \"50 s\"\nquantities = [\"energy_residual\"]\n", kind, law));
+            EXPECT_LT(std::abs(file.values("energy_residual")[0]), 1e-6) << kind << ", " << law;
+        }
+    }
+}
+
+/// Members of other speeds end after revolutions of their own, with the steps of their own drives: a speed that is drawn moves as one that is given.
+TEST_F(ByTurns, MembersOfDrivesThatScatterEndAfterTheirOwnRevolutions) {
+    auto const text = [](std::string const& mechanism, std::string const& vary) {
+        return "schema = 1\n[mechanism]\n" + mechanism + "[contact]\nlaw = \"foundation\"\nrestitution = 0.5\n[friction]\n[study]\nkind = \"tolerance\"\nmembers = 4\n"
+               "revolutions = 1\nverify = 0\nquantities = [\"friction_loss\"]\n[study.vary]\n" + vary;
+    };
+    struct Drive { std::string kind, key, value; };
+    for (Drive const& drive : {Drive{"slider_crank", "crank_speed", "15"}, Drive{"carriage", "carriage_speed", "1"}, Drive{"carriage", "stroke", "0.01"}}) {
+        std::string const kind = "kind = \"" + drive.kind + "\"\n", vary = "\"mechanism." + drive.key + "\" = {dist = \"const\", value = " + drive.value + "}\n";
+        std::string const start = "\"initial.y\" = {dist = \"const\", value = 0}\n";
+        ResultReader const drawn = results_of(text(kind, vary + start));
+        auto const losses = drawn.values("friction_loss"), ends = drawn.values("end_time");
+        ResultReader const given = results_of(text(kind + drive.key + " = " + drive.value + "\n", start));
+        EXPECT_EQ(ends, given.values("end_time")) << drive.key;
+        EXPECT_EQ(losses, given.values("friction_loss")) << drive.key;
+    }
+    ResultReader const file = results_of(text("kind = \"slider_crank\"\n", "\"mechanism.crank_speed\" = {dist = \"unif\", low = 10, high = 20}\n"));
+    auto const speeds = file.values("mechanism_crank_speed"), ends = file.values("end_time");
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(ends[i], 2 * pi / speeds[i], 1e-12) << i;
+    write("s.toml", text("kind = \"slider_crank\"\n", "\"mechanism.crank_speed\" = {dist = \"unif\", low = -1, high = 20}\n"));
+    expect_refusal(2, "of the slowest member, whose mechanism.crank_speed is drawn", {"check", "s.toml"});
+    write("s.toml", text("kind = \"slider_crank\"\n", "\"mechanism.crank_speed\" = {dist = \"unif\", low = 10, high = 20}\n"));
+    expect_refusal(2, "members are sampled at common times, and their revolutions last differently: mechanism.crank_speed is drawn",
+                   {"check", "s.toml", "--set", "study.samples=5", "study.kind=ensemble"});
+}
+
+/// A pulse over 8 degrees of the crank is met in each turn, however fast the members turn that are drawn.
+TEST_F(ByTurns, StepsAreThoseOfTheFastestMember) {
+    write("p.csv", "crank_angle [deg],t\n0,0\n196.3,0\n200.3,1000\n204.3,0\n360,0\n");
+    ResultReader const file = results_of(
+        "schema = 1\n[mechanism]\nkind = \"scotch_yoke\"\ngravity = 0\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n[load.a]\non = \"crank\"\ntorque = 1\n"
+        "table = \"p.csv\"\nover = \"crank_angle\"\ncolumn = \"t\"\ninterpolation = \"linear\"\n[study]\nkind = \"tolerance\"\nmembers = 4\nrevolutions = 2\n"
+        "verify = 0\nquantities = [\"load_work\"]\n[study.vary]\n\"mechanism.crank_speed\" = {dist = \"unif\", low = 60, high = 61}\n");
+    for (double const work : file.values("load_work")) EXPECT_NEAR(work, 2 * 1000 * (8 * pi / 180) / 2, 0.05);
+}
+
+/// Without exponents a sweep asks nothing of rigid contacts that they do not have.
+TEST_F(ByTurns, RigidSweepsWithoutExponentsRun) {
+    ResultReader const file = results_of(
+        "schema = 1\n[mechanism]\nkind = \"slider_crank\"\ncrank_speed = 10\n[drive]\nkind = \"torque\"\ntorque = 1\ninertia = 0.1\nno_load_speed = 12\n"
+        "[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n[friction]\n[study]\nkind = \"sweep\"\nparameter = \"drive.torque\"\nvalues = [1, 1.5]\nmembers = 1\n"
+        "transient_revolutions = 1\nrevolutions = 2\ntime_limit = 10\nexponents = 0\nverify = 0\nquantities = [\"friction_loss\"]\n");
+    EXPECT_EQ(file.values("friction_loss").size(), 2u);
+}
+
 TEST_F(ByTurns, ResumedFilesAreThoseOfOneRun) {
     std::string const text = scene("revolutions = 0.75\nsamples_per_revolution = 16\nquantities = [\"energy_residual\"]");
     std::string const whole = results_of(text).attribute("payload_hash");

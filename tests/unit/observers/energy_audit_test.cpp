@@ -53,6 +53,20 @@ TEST(EnergyAudit, AllowsAFifthOfWhatContactTurnedOverAndAFiftiethOfFriction) {
     }
 }
 
+/// Tolerance and rounding leave of a flywheel's energy what is far more than a light slider's contacts ever store.
+TEST(EnergyAudit, AllowsWhatRoundingLeavesOfAFlywheel) {
+    Audit audit{};
+    audit.energy = 10;
+    audit.made = 0.99e-7;
+    EXPECT_FALSE(is_unstable(audit));
+    audit.made = 1.01e-7;
+    EXPECT_TRUE(is_unstable(audit));
+    audit.made = 0, audit.astray = 0.49e-7;
+    EXPECT_FALSE(is_unstable(audit));
+    audit.astray = 0.51e-7;
+    EXPECT_TRUE(is_unstable(audit));
+}
+
 TEST(EnergyAudit, TakesAnOilFilmAsFriction) {
     auto audit = audit_with(2.19e-4);
     std::swap(audit.film_loss, audit.friction_loss);
