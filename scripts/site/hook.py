@@ -15,6 +15,7 @@ _pages = {
     "index.md": "README.md",
     "pages.md": "docs/README.md",
     "benchmarks.md": "bench/results/README.md",
+    "contributing.md": "CONTRIBUTING.md",
     "python_reference.md": "scripts/site/python_reference.md",
 }
 _link = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
