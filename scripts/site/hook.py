@@ -15,9 +15,12 @@ _pages = {
     "index.md": "README.md",
     "pages.md": "docs/README.md",
     "benchmarks.md": "bench/results/README.md",
+    "contributing.md": "CONTRIBUTING.md",
     "python_reference.md": "scripts/site/python_reference.md",
 }
 _link = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
+_fence = re.compile(r"(\s*```\w*).*")  # a file's name behind the language would not be taken for a fence
+_block = re.compile(r"^(\s*```.*?^\s*```)", re.MULTILINE | re.DOTALL)
 _item = re.compile(r"\s*([-*]|\d+\.) ")
 
 
@@ -54,28 +57,30 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     for line in markdown.splitlines():
         if line.lstrip().startswith("```"):
             fenced = not fenced
+            line = _fence.sub(r"\1", line)
         elif not fenced:
-            line = _outside_code(line, folder)
             before = lines[-1] if lines else ""
             begins_list = _item.match(line) and not line.startswith(" ") and not _item.match(before) and not before.startswith(" ")
             begins_table = line.startswith("|") and not before.startswith("|")
             if before and (begins_list or begins_table):
                 lines.append("")
         lines.append(line)
-    return "\n".join(lines) + "\n"
+    # A link's words may go over lines.
+    parts = _block.split("\n".join(lines) + "\n")
+    return "".join(part if k % 2 else _outside_code(part, folder, os.path.dirname(source)) for k, part in enumerate(parts))
 
 
-def _outside_code(line: str, folder: Path) -> str:
-    """A line whose links are those of the site; spans of code stay."""
-    parts = re.split(r"(`[^`]*`)", line)
+def _outside_code(prose: str, folder: Path, site_folder: str) -> str:
+    """Text whose links are those of the site; spans of code stay."""
+    parts = re.split(r"(`[^`\n]*`)", prose)
     # A link's words may be code, so that spans are hidden and put back.
     spans = parts[1::2]
     hidden = "".join(part if k % 2 == 0 else f"\0{k // 2}\0" for k, part in enumerate(parts))
-    shown = _link.sub(lambda match: _rewritten(match, folder), hidden)
+    shown = _link.sub(lambda match: _rewritten(match, folder, site_folder), hidden)
     return re.sub("\0(\\d+)\0", lambda match: spans[int(match[1])], shown)
 
 
-def _rewritten(match: re.Match[str], folder: Path) -> str:
+def _rewritten(match: re.Match[str], folder: Path, site_folder: str) -> str:
     mark, words, target = match.groups()
     if "://" in target or target.startswith("#"):
         return match[0]
@@ -88,4 +93,5 @@ def _rewritten(match: re.Match[str], folder: Path) -> str:
         to = path.removeprefix("docs/")
     else:
         return words if path in words else f"{words} (`{path}`)"
+    to = os.path.relpath(to, site_folder or ".")
     return f"{mark}[{words}]({to}{'#' + place if place else ''})"

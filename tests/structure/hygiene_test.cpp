@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t longest_source = 500;  // lines
 
 std::vector<SourceFile> repository_files() {
-    auto files = files_below({".ci", "bench", "cmake", "docs", "host", "kernels", "python", "scenes", "scripts", "tests"});
+    auto files = files_below({".ci", ".github", "bench", "cmake", "docs", "host", "kernels", "python", "scenes", "scripts", "tests"});
     auto const in_root = files_in_root();
     files.insert(files.end(), in_root.begin(), in_root.end());
     std::erase_if(files, [](SourceFile const& f) { return has_ending(f.path, {".csv", ".png", ".nc", ".pyc"}); });
@@ -23,7 +23,7 @@ std::vector<SourceFile> repository_files() {
 
 bool is_source(SourceFile const& file) {
     return has_ending(file.path, {".hpp", ".cpp", ".cu", ".in", ".cmake", "CMakeLists.txt", ".sh", ".py", ".toml",
-                                  ".json", ".ci/run", ".clang-format", ".clang-tidy"});
+                                  ".json", ".yml", ".yaml", ".cff", ".ci/run", ".clang-format", ".clang-tidy"});
 }
 
 // The names are put together here so that this file does not contain what it looks for.
