@@ -42,8 +42,10 @@ line = sys.argv[1:]
 if line[0] == "run":
     kind = os.path.basename(line[1]).partition(".")[0].partition("_")[0]
     kind = "slider_crank" if kind == "slider" else kind
+    members = any(word.startswith("study.members=") for word in line)
     for setting in shorter[kind]:
-        line += ["--set", setting]
+        if not (members and setting.startswith("study.base=")):
+            line += ["--set", setting]
 os.execv({program!r}, [{program!r}, *line])
 """
 
@@ -71,8 +73,8 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/jobs.md", "docs/json.md", "docs/report.md", "docs/results.md", "docs/rigid.md",
-         "docs/tolerance.md"]  # fmt: skip
+PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/jobs.md", "docs/json.md", "docs/parameters.md", "docs/report.md", "docs/results.md",
+         "docs/rigid.md", "docs/tolerance.md"]  # fmt: skip
 
 
 @pytest.fixture
