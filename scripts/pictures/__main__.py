@@ -14,6 +14,7 @@ from .figures import bifurcation, energy_residual, heyoka, modes, poincare, tole
 from .film import film
 from .impacts import rigid
 from .jobs import JOBS
+from .mechanisms import KEYS
 from .overviews import explain, layers, plots, report, stability
 from .regimes import regimes
 from .style import Picture, largest
@@ -36,7 +37,7 @@ PICTURES: dict[str, Picture] = {
     "plots": plots,
     "explain": explain,
     "report": report,
-} | JOBS
+} | KEYS | JOBS
 
 
 def main() -> int:

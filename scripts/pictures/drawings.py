@@ -18,9 +18,9 @@ from slideway.way import rod_reach
 from .figures import run
 from .style import as_svg
 
-_dark = "#222222"
-_body = "#cfe1f1"  # of the slider
-_way = "#d9d9d9"
+dark = "#222222"
+body = "#cfe1f1"  # of the slider
+way_tone = "#d9d9d9"
 _shown_gap = 8.0  # mm, in place of the 0.1 mm that the scene has
 
 
@@ -29,7 +29,7 @@ def _scene(root: Path) -> dict[str, Any]:
     return slideway.scene(run(root, "scenes/slider_crank_0.1mm.toml", "paper", study__revolutions=1e-3))
 
 
-def _canvas(height: float) -> tuple[Figure, Axes]:
+def canvas(height: float) -> tuple[Figure, Axes]:
     figure = plt.figure(figsize=(5.4, height))
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     ax.set_aspect("equal")
@@ -37,11 +37,11 @@ def _canvas(height: float) -> tuple[Figure, Axes]:
     return figure, ax
 
 
-def _arrow(ax: Axes, start: tuple[float, float], end: tuple[float, float], colour: str = _dark, both: bool = False) -> None:
+def arrow(ax: Axes, start: tuple[float, float], end: tuple[float, float], colour: str = dark, both: bool = False) -> None:
     ax.annotate("", end, start, arrowprops={"arrowstyle": "<|-|>" if both else "-|>", "color": colour, "lw": 1.3, "shrinkA": 0, "shrinkB": 0})
 
 
-def _named(ax: Axes, words: str, at: tuple[float, float], to: tuple[float, float] | None = None, **options: object) -> None:
+def named(ax: Axes, words: str, at: tuple[float, float], to: tuple[float, float] | None = None, **options: object) -> None:
     """A name, with a thin line to what it names."""
     if to is not None:
         ax.plot(*zip(at, to, strict=True), color=grey, lw=0.8, zorder=6)
@@ -57,41 +57,41 @@ def mechanism(root: Path) -> str:
     angle = np.deg2rad(50)
     pin = (crank * np.cos(angle), crank * np.sin(angle))
     x, y, tilt = float(rod_reach(crank, rod, angle)), 0.0, np.deg2rad(-4)
-    figure, ax = _canvas(3.1)
+    figure, ax = canvas(3.1)
     ax.set_xlim(-66, 236)
     ax.set_ylim(-84, 89)
-    ax.add_patch(Rectangle((88, -width / 2), 140, width, fc=_way, ec=_dark, lw=1.2, zorder=1))
+    ax.add_patch(Rectangle((88, -width / 2), 140, width, fc=way_tone, ec=dark, lw=1.2, zorder=1))
     turn = np.array([[np.cos(tilt), -np.sin(tilt)], [np.sin(tilt), np.cos(tilt)]])
     inner, outer = width / 2 + _shown_gap, width / 2 + _shown_gap + 9
     for side in (1, -1):
         corners = np.array([[-length / 2, inner], [length / 2, inner], [length / 2, outer], [-length / 2, outer]]) * [1, side]
-        ax.add_patch(Polygon(corners @ turn.T + [x, y], fc=_body, ec=colours[0], lw=1.4, zorder=2))
+        ax.add_patch(Polygon(corners @ turn.T + [x, y], fc=body, ec=colours[0], lw=1.4, zorder=2))
     ends = np.array([[-length / 2, -inner], [-length / 2, inner], [length / 2, inner], [length / 2, -inner]]) @ turn.T + [x, y]
     for pair in ((0, 1), (2, 3)):
         ax.plot(*ends[list(pair)].T, color=colours[0], lw=1, ls=":", zorder=3)
     ax.plot(*ends.T, "o", color=limit_colour, ms=5, zorder=5)
     circle = np.linspace(0, 2 * np.pi, 90)
     ax.plot(crank * np.cos(circle), crank * np.sin(circle), color=grey, lw=0.8, ls=(0, (4, 4)))
-    ax.plot([0, pin[0]], [0, pin[1]], color=_dark, lw=4.5, solid_capstyle="round", zorder=4)
+    ax.plot([0, pin[0]], [0, pin[1]], color=dark, lw=4.5, solid_capstyle="round", zorder=4)
     ax.plot([pin[0], x], [pin[1], y], color=colours[1], lw=3.2, solid_capstyle="round", zorder=4)
     for point in ((0, 0), pin, (x, y)):
-        ax.add_patch(Circle(point, 2.6, fc="white", ec=_dark, lw=1.3, zorder=5))
+        ax.add_patch(Circle(point, 2.6, fc="white", ec=dark, lw=1.3, zorder=5))
     for start, end, words, at in (((0, 0), (62, 0), "X", (68, 0)), ((0, 0), (0, 66), "Y", (0, 73))):
-        _arrow(ax, start, end)
-        _named(ax, words, at, style="italic")
-    ax.plot(0, 0, "o", ms=2.2, color=_dark, zorder=6)
-    _named(ax, "Z", (-8, -7), style="italic")
+        arrow(ax, start, end)
+        named(ax, words, at, style="italic")
+    ax.plot(0, 0, "o", ms=2.2, color=dark, zorder=6)
+    named(ax, "Z", (-8, -7), style="italic")
     own = np.array([[30, 0], [0, 42]]) @ turn.T + [x, y]
     for end, words, shift in ((own[0], "X of K", (16, -14)), (own[1], "Y of K", (0, 6))):
-        _arrow(ax, (x, y), tuple(end), colours[3])
-        _named(ax, words, (end[0] + shift[0], end[1] + shift[1]), color=colours[3], style="italic")
-    _named(ax, "crank", (-14, 46), (pin[0] * 0.55, pin[1] * 0.62))
-    _named(ax, "rod", (100, 52), (pin[0] + 0.5 * (x - pin[0]), pin[1] * 0.5))
-    _named(ax, "slider", (x - 42, -46), (x - 16, -inner - 3))
-    _named(ax, "way", (102, -30), (106, -width / 2 + 3))
-    _named(ax, "an apex", (x + 42, 50), tuple(ends[2]), color=limit_colour)
+        arrow(ax, (x, y), tuple(end), colours[3])
+        named(ax, words, (end[0] + shift[0], end[1] + shift[1]), color=colours[3], style="italic")
+    named(ax, "crank", (-14, 46), (pin[0] * 0.55, pin[1] * 0.62))
+    named(ax, "rod", (100, 52), (pin[0] + 0.5 * (x - pin[0]), pin[1] * 0.5))
+    named(ax, "slider", (x - 42, -46), (x - 16, -inner - 3))
+    named(ax, "way", (102, -30), (106, -width / 2 + 3))
+    named(ax, "an apex", (x + 42, 50), tuple(ends[2]), color=limit_colour)
     ax.plot([x + 7, x + 7], [-width / 2 - 1, -inner + 1], color=limit_colour, lw=3.5, solid_capstyle="butt", zorder=4)
-    _named(ax, f"clearance c, drawn {_shown_gap / (1e3 * joint['clearance_y']):.0f} times too wide", (150, -70), (x + 7, -width / 2 - 4))
+    named(ax, f"clearance c, drawn {_shown_gap / (1e3 * joint['clearance_y']):.0f} times too wide", (150, -70), (x + 7, -width / 2 - 4))
     return as_svg(figure)
 
 
@@ -106,7 +106,7 @@ def apices(root: Path) -> str:
         points = np.asarray(points, dtype=float)
         return np.stack([(points[..., 0] - points[..., 2]) * cosine, points[..., 1] + (-points[..., 0] - points[..., 2]) * sine], -1)
 
-    figure, ax = _canvas(3.9)
+    figure, ax = canvas(3.9)
     ax.set_xlim(-56, 56)
     ax.set_ylim(-45, 43)
     at = flat(APEX_SIGNS * half)
@@ -114,7 +114,7 @@ def apices(root: Path) -> str:
         for apex, end in ((first, 0.6), (first + 4, -0.6)):
             ax.plot(*np.stack([at[apex], flat(APEX_SIGNS[apex] * half + [end * 2 * half[0], 0, 0])]).T, color=grey, lw=1, ls="--", zorder=4 if end > 0 else 1)
     faces = {"X": [k for k in range(4)], "Y": [0, 3, 7, 4], "Z": [0, 1, 5, 4]}
-    for name, tone in (("X", "#b9cfe4"), ("Y", "#e3eef8"), ("Z", _body)):
+    for name, tone in (("X", "#b9cfe4"), ("Y", "#e3eef8"), ("Z", body)):
         ax.add_patch(Polygon(at[faces[name]], fc=tone, ec=colours[0], lw=1.4, zorder=2))
     for pair in ((6, 5), (6, 7), (6, 2)):
         ax.plot(*at[list(pair)].T, color=colours[0], lw=1, ls=":", zorder=3)
@@ -128,6 +128,6 @@ def apices(root: Path) -> str:
     origin = flat(np.zeros(3))
     for direction, name in (([34, 0, 0], "X"), ([0, 26, 0], "Y"), ([0, 0, 30], "Z")):
         end = flat(np.array(direction))
-        _arrow(ax, tuple(origin), tuple(end), colours[3])
+        arrow(ax, tuple(origin), tuple(end), colours[3])
         ax.text(*(end * 1.12), name, ha="center", va="center", color=colours[3], style="italic", zorder=7)
     return as_svg(figure)
