@@ -71,7 +71,7 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-PAGES = ["docs/explanation/chaos.md", "docs/how_to/command_line.md", "docs/how_to/gpu.md", "docs/how_to/jobs.md", "docs/reference/json.md", "docs/parameters.md", "docs/how_to/report.md", "docs/reference/results.md", "docs/how_to/rigid.md",
+PAGES = ["docs/explanation/chaos.md", "docs/how_to/command_line.md", "docs/how_to/gpu.md", "docs/how_to/jobs.md", "docs/reference/json.md", "docs/how_to/parameters.md", "docs/how_to/report.md", "docs/reference/results.md", "docs/how_to/rigid.md",
          "docs/how_to/tolerance.md"]  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""The drawings of every mechanism with its keys (docs/mechanisms.md): a key's colour says which table of the scene it is in."""
+"""The drawings of every mechanism with its keys (docs/reference/mechanisms.md): a key's colour says which table of the scene it is in."""
 
 from __future__ import annotations
 
