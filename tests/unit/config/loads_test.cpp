@@ -270,10 +270,10 @@ TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
     expect_refused("schema = 1\n[way_ends]\nto = 0.3\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n", "a way without ends");
     // Slopes of profiles of the same faces add up.
     auto const two = [&](std::string const& faces) {
-        return worn(hollow, "scale = 30\nfaces = \"y\"\n[way_profile.more]\ntable = \"" + file(hollow) + "\"\ncolumn = \"depth\"\nscale = 30\nfaces = \"" + faces + "\"\n");
+        return worn(hollow, "scale = 60\nfaces = \"y\"\n[way_profile.more]\ntable = \"" + file(hollow) + "\"\ncolumn = \"depth\"\nscale = 60\nfaces = \"" + faces + "\"\n");
     };
     EXPECT_EQ(scene_of(two("z")).parts.loads.count, 2);
-    expect_refused(two("all"), "way_profile.more.scale is 30 (its faces then have a slope of 0.0");
+    expect_refused(two("all"), "way_profile.more.scale is 60 (its faces then have a slope of 0.0");
     // Drawn numbers keep their rules, too.
     Inputs drawn = scene.inputs;
     drawn.*load_inputs[profile.scale] = -1;
