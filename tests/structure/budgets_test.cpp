@@ -38,18 +38,18 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 19'880u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'190u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'850u);
-    EXPECT_LE(Layer("host").lines(), 32'310u);
+    EXPECT_LE(Layer("kernels").lines(), 19'920u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'198u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'886u);
+    EXPECT_LE(Layer("host").lines(), 32'420u);
     EXPECT_LE(Layer("host/store").lines(), 4'570u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
-    EXPECT_LE(kernels.count(type).in_all, 401u);
-    EXPECT_LE(Layer("host").count(type).in_all, 378u);
+    EXPECT_LE(kernels.count(type).in_all, 400u);
+    EXPECT_LE(Layer("host").count(type).in_all, 379u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 46u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }
