@@ -130,7 +130,7 @@ std::string state_text(Probed const& probed, std::size_t row) {
 void print_listing(Probed const& probed, std::size_t row, ProbeResult const& result, Isa isa) {
     StateTable const& table = probed.table;
     print_field("state", fmt::format("{}, computed with {}", state_text(probed, row), name_of(isa)));
-    print_field("status", name_of(result.status));
+    print_field("status", fmt::format("{}{}", name_of(result.status), probed.stored ? " (of this state; info --members has those of members)" : ""));
     MechanismInfo const& has = info(table.mechanism);
     StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
     TextRows rows{{"state", "unit", "value", "derivative"}};
