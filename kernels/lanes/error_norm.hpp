@@ -3,6 +3,7 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/math/squared_ratios.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/pair_numbers.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -40,7 +41,7 @@ template <class Stepper, class Model, class Real> struct ErrorNorm {
     }
 
 private:
-    static constexpr int size = Model::size;
+    static constexpr int size = Model::size, usual_states = PairNumbers::usual_states;
 
     /// Of one component.  @param least of rtol and atol
     SLIDEWAY_FN static Real tolerance(Pack<Model, Real> const& pack, IntegratorSettings const& settings, StepStart<Model, Real> const& from,
@@ -49,11 +50,17 @@ private:
         return fma(max(Real(settings.rtol), Real(least)), amount, max(Real(settings.atol), Real(least)) * pack.state.constants.scale[i]);
     }
 
+    SLIDEWAY_FN static void add(Pack<Model, Real> const& pack, IntegratorSettings const& settings, StepStart<Model, Real> const& from,
+                                Attempt<Model, Real> const& to, Real const* errors, int n, SquaredRatios<Real>& sum) {
+        SLIDEWAY_UNROLL
+        for (int i = 0; i < n; ++i) sum.add(errors[i], tolerance(pack, settings, from, to, i, 0.0));
+    }
     SLIDEWAY_FN static Real sum_of(Pack<Model, Real> const& pack, IntegratorSettings const& settings, StepStart<Model, Real> const& from,
                                    Attempt<Model, Real> const& to, Real const* errors, Real const* audit_error) {
         SquaredRatios<Real> sum;
-        SLIDEWAY_UNROLL
-        for (int i = 0, n = pack.states(); i < n; ++i) sum.add(errors[i], tolerance(pack, settings, from, to, i, 0.0));
+        int const n = pack.states();
+        if (size > usual_states && n == usual_states) add(pack, settings, from, to, errors, usual_states, sum);
+        else add(pack, settings, from, to, errors, n, sum);
         add_audit(pack, settings, from, to, audit_error, sum);
         return sum.total();
     }

@@ -60,7 +60,8 @@ struct PairNumbers {
 
     /// Σ_j w_j k_j of the first stages, the newest slope last, for the sum waits for it alone.
     template <int room, class Real> SLIDEWAY_FN static void combine(double const* weights, int count, Real const (*k)[room], Real* sum, int n = room) {
-        if (n == usual_states && room > usual_states) combine_of<usual_states>(weights, count, k, sum, usual_states);
+        if (room > usual_states && n == usual_states) combine_of<room>(weights, count, k, sum, usual_states);
+        else if (n == room) combine_of<room>(weights, count, k, sum, room);
         else combine_of<room>(weights, count, k, sum, n);
     }
 
@@ -86,12 +87,12 @@ struct PairNumbers {
         }
     }
 
-private:
-    static constexpr int usual_states = 10;  // a slider's, for which sums have loops of constant length: they stay in registers
+    static constexpr int usual_states = 10;  // a slider's: loops of this constant length hold their sums in registers
 
-    template <int most, int room, class Real>
+private:
+    template <int room, class Real>
     SLIDEWAY_FN static void combine_of(double const* weights, int count, Real const (*k)[room], Real* sum, int n) {
-        Real held[most];
+        Real held[room];
         int j = 0;
         while (j + 1 < count && weights[j] == 0) ++j;
         for (int i = 0; i < n; ++i) held[i] = Real(weights[j]) * k[j][i];
