@@ -101,9 +101,9 @@ std::optional<std::pair<Key const*, std::string>> unusual_pair(Inputs const& inp
         if (!spatial || !(own > others * (1 + 1e-9))) continue;
         return std::pair{one, fmt::format("is {} (a rigid body has at most the sum of the other two, {:.4g} {})", with_unit(own, one->unit), others, one->unit)};
     }
-    static Key const& at_rest = *find_key("friction.static");
-    if (parts.friction && in.friction_static < in.friction_kinetic)
-        return std::pair{&at_rest, fmt::format("is {:g} (usually not below friction.kinetic, {:g}); give both", in.friction_static, in.friction_kinetic)};
+    static Key const& kinetic = *find_key("friction.kinetic");
+    if (parts.friction && in.friction_kinetic > in.friction_static)
+        return std::pair{&kinetic, fmt::format("is {:g} (usually not above friction.static, {:g}); give both", in.friction_kinetic, in.friction_static)};
     constexpr double fastest = 1000;  // [m/s]
     static Key const& turning = *find_key("mechanism.crank_speed");
     double const speed = std::abs(in.crank_speed) * in.crank_length;

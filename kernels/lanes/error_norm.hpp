@@ -3,7 +3,6 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/math/squared_ratios.hpp"
 #include "kernels/real.hpp"
-#include "kernels/steppers/pair_numbers.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -41,7 +40,7 @@ template <class Stepper, class Model, class Real> struct ErrorNorm {
     }
 
 private:
-    static constexpr int size = Model::size, usual_states = PairNumbers::usual_states;
+    static constexpr int size = Model::size;
 
     /// Of one component.  @param least of rtol and atol
     SLIDEWAY_FN static Real tolerance(Pack<Model, Real> const& pack, IntegratorSettings const& settings, StepStart<Model, Real> const& from,

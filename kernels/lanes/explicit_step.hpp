@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
@@ -21,14 +23,12 @@ public:
         SLIDEWAY_EXPECT(pack.pair != nullptr && pack.pair->stages > 1 && pack.pair->stages + pack.pair->dense_stages <= PairNumbers::most_stages);
         pair_ = pack.pair;
         states_ = pack.states();
-        for (int i = 0; i < states_; ++i) k_[0][i] = from.rates[i];
         to.faults = Faults<Real>::none();
         if (from.needs.stages) pack.begin_integrals(weights(0));
         prepared_ = mask_of<Real>(false);
-        int const last = pair_->stages - 1;
-        for (int s = 1; s < last; ++s) stage(pack, from, to, s, at_, from.needs.stages);
-        stage(pack, from, to, last, to.end, from.needs.ends);
-        for (int i = 0; i < states_; ++i) to.end_rates[i] = k_[last][i];
+        if (has_usual_size()) take_stages(usual, pack, from, to);
+        else if (states_ == size) take_stages(whole, pack, from, to);
+        else take_stages(states_, pack, from, to);
     }
 
     /// Error estimates of the components.
@@ -55,10 +55,24 @@ public:
 
 private:
     static constexpr int size = Model::size;
+    // Loops of constant length hold their sums in registers.
+    static constexpr std::integral_constant<int, size < usual_states ? size : usual_states> usual{};
+    static constexpr std::integral_constant<int, size> whole{};
+    SLIDEWAY_FN bool has_usual_size() const { return size > usual_states && states_ == usual_states; }
 
-    SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to, int s, Real* at,
+    /// @param n components of the state
+    template <class Count> SLIDEWAY_FN void take_stages(Count n, Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
+        for (int i = 0; i < n; ++i) k_[0][i] = from.rates[i];
+        int const last = pair_->stages - 1;
+        for (int s = 1; s < last; ++s) stage(n, pack, from, to, s, at_, from.needs.stages);
+        stage(n, pack, from, to, last, to.end, from.needs.ends);
+        for (int i = 0; i < n; ++i) to.end_rates[i] = k_[last][i];
+    }
+
+    template <class Count>
+    SLIDEWAY_FN void stage(Count n, Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to, int s, Real* at,
                            bool report_wanted) {
-        pair_->stage_state(s, from.y, k_, to.step, at, states_);
+        pair_->stage_state(s, from.y, k_, to.step, at, n);
         pack.tell_stages(s + 1 < pair_->stages);
         Real const t = fma(to.step, Real(pair_->c[s]), from.t);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
@@ -67,8 +81,13 @@ private:
     }
 
     SLIDEWAY_HD void estimate(double const* weights, Attempt<Model, Real> const& to, Real* of_state) const {
-        PairNumbers::combine(weights, pair_->stages, k_, of_state, states_);
-        for (int i = 0; i < states_; ++i) of_state[i] = to.step * of_state[i];
+        if (has_usual_size()) estimate_of(usual, weights, to, of_state);
+        else if (states_ == size) estimate_of(whole, weights, to, of_state);
+        else estimate_of(states_, weights, to, of_state);
+    }
+    template <class Count> SLIDEWAY_FN void estimate_of(Count n, double const* weights, Attempt<Model, Real> const& to, Real* of_state) const {
+        PairNumbers::combine(weights, pair_->stages, k_, of_state, n);
+        for (int i = 0; i < n; ++i) of_state[i] = to.step * of_state[i];
     }
 
     /// Of a stage in the integrals over the step.

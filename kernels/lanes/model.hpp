@@ -38,6 +38,8 @@ struct ModelDefaults {
     template <class... Offset> SLIDEWAY_FN static void keep_offset(Offset const&...) {}
 };
 
+inline constexpr int usual_states = 10;  // of a slider that is driven
+
 /// How many components a model's state has: `size`, a constant; or where the model says it, which looks its equations up, as many as that at most.
 template <class Model> class StateCount {
 public:

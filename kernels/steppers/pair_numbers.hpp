@@ -60,9 +60,15 @@ struct PairNumbers {
 
     /// Σ_j w_j k_j of the first stages, the newest slope last, for the sum waits for it alone.
     template <int room, class Real> SLIDEWAY_FN static void combine(double const* weights, int count, Real const (*k)[room], Real* sum, int n = room) {
-        if (room > usual_states && n == usual_states) combine_of<room>(weights, count, k, sum, usual_states);
-        else if (n == room) combine_of<room>(weights, count, k, sum, room);
-        else combine_of<room>(weights, count, k, sum, n);
+        Real held[room];
+        int j = 0;
+        while (j + 1 < count && weights[j] == 0) ++j;
+        for (int i = 0; i < n; ++i) held[i] = Real(weights[j]) * k[j][i];
+        for (++j; j < count; ++j) {
+            if (weights[j] == 0) continue;
+            for (int i = 0; i < n; ++i) held[i] = fma(Real(weights[j]), k[j][i], held[i]);
+        }
+        for (int i = 0; i < n; ++i) sum[i] = held[i];
     }
 
     /// The state inside the step, at fraction θ of it.
@@ -85,22 +91,6 @@ struct PairNumbers {
             Real const end = (bends > 0 ? fnma(h, last, change) : change - h * last) - start;
             state[i] = fma(theta, fma(rest, fma(theta, fma(rest, bend[i], end), start), change), y0[i]);
         }
-    }
-
-    static constexpr int usual_states = 10;  // a slider's: loops of this constant length hold their sums in registers
-
-private:
-    template <int room, class Real>
-    SLIDEWAY_FN static void combine_of(double const* weights, int count, Real const (*k)[room], Real* sum, int n) {
-        Real held[room];
-        int j = 0;
-        while (j + 1 < count && weights[j] == 0) ++j;
-        for (int i = 0; i < n; ++i) held[i] = Real(weights[j]) * k[j][i];
-        for (++j; j < count; ++j) {
-            if (weights[j] == 0) continue;
-            for (int i = 0; i < n; ++i) held[i] = fma(Real(weights[j]), k[j][i], held[i]);
-        }
-        for (int i = 0; i < n; ++i) sum[i] = held[i];
     }
 };
 

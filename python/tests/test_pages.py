@@ -114,7 +114,8 @@ def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> Non
 
 
 def test_every_page_with_commands_is_among_them() -> None:
-    found = {f"docs/{page.name}" for page in (root / "docs").glob("*.md") if commands(f"docs/{page.name}")} | {"README.md"}
+    names = [str(page.relative_to(root)) for page in (root / "docs").rglob("*.md")]
+    found = {name for name in names if commands(name)} | {"README.md"}
     assert found == {"README.md", *PAGES, "docs/tutorial/tutorial.md"}  # whose commands test_package.py runs
 
 

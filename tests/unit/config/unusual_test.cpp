@@ -41,7 +41,7 @@ TEST(UnusualNumbers, OfMassesAndSpeedsToo) {
                                     "[contact]\nchi_line = 1e9"}) {
         EXPECT_FALSE(warnings_of(lines).empty()) << lines;
     }
-    EXPECT_TRUE(warnings_of("[friction]\nkinetic = 3\n[joint]\nclearance = 1e-3\n[contact]\nyoung_modulus = 1e13\n[initial]\nvy = 1000").empty()) << "ends are usual";
+    EXPECT_TRUE(warnings_of("[friction]\nstatic = 3\nkinetic = 3\n[joint]\nclearance = 1e-3\n[contact]\nyoung_modulus = 1e13\n[initial]\nvy = 1000").empty()) << "ends are usual";
 }
 
 TEST(UnusualNumbers, MayBeSoTogether) {
@@ -51,6 +51,14 @@ TEST(UnusualNumbers, MayBeSoTogether) {
               Warnings{"scene.toml:1: joint.clearance_y is 0.0001 m (usually less than a tenth of the way, 5e-05 m); is its unit right?"});
     EXPECT_EQ(warnings_of("[mechanism]\ncrank_speed = 5000\ncrank_length = 1\nrod_length = 3"),
               Warnings{"scene.toml:3: mechanism.crank_speed is 5000 rad/s (the crank pin then moves at 5000 m/s, usually up to 1000 m/s); is its unit right?"});
+}
+
+TEST(UnusualNumbers, OfFrictionAndInertiaAreToldOfEachOther) {
+    EXPECT_EQ(warnings_of("[friction]\nkinetic = 0.2"), Warnings{"scene.toml:3: friction.kinetic is 0.2 (usually not above friction.static, 0.15); give both"});
+    EXPECT_TRUE(warnings_of("[friction]\nstatic = 0.2\nkinetic = 0.2").empty());
+    auto const inertia = [](char const* x) { return warnings_of(std::string("[mechanism]\nslider_inertia_x = ") + x + "\nslider_inertia_y = 1e-5\nslider_inertia_z = 1e-5"); };
+    EXPECT_EQ(inertia("2.1e-5"), Warnings{"scene.toml:3: mechanism.slider_inertia_x is 2.1e-05 kg m2 (a rigid body has at most the sum of the other two, 2e-05 kg m2)"});
+    EXPECT_TRUE(inertia("2e-5").empty());
 }
 
 TEST(UnusualNumbers, OfDrawsAndColumnsOfASweep) {
