@@ -212,8 +212,9 @@ int execute(CheckArguments const& arguments) {
                                        counted(prediction.largest_block, "member")));
     if (!choice.reason.empty()) print_field("", choice.reason);
     OrbitSchedule const schedule = orbit_schedule(scene);
-    std::string const length = schedule.by_turns ? fmt::format("{:.6g} revolutions, for at most {:.6g} s", schedule.turns, schedule.end)
-                                                 : fmt::format("{:.6g} s", schedule.end);
+    std::string const length = schedule.by_turns       ? fmt::format("{:.6g} revolutions, for at most {:.6g} s", schedule.turns, schedule.end)
+                               : scene.has_own_ends() ? fmt::format("{:.6g} revolutions of its own, {:.6g} s at most", scene.chaos.span.value, scene.integrator.end_time)
+                                                      : fmt::format("{:.6g} s", schedule.end);
     print_field("members", fmt::format("{}, each over {}", member_count(scene), length));
     print_design(scene);
     print_orbits(scene, schedule);

@@ -48,11 +48,12 @@ double read_end_time(Reading const& reading) {
     bool const has_limit = reading.given("study.time_limit") != nullptr;
     if (node == nullptr) scene.chaos.span = {1, has_limit || std::isfinite(turn)};
     if (has_limit) return scene.integrator.end_time;
-    // Members end after their own revolutions; draws that are slower by far than the scene's own member are too rare to reckon with.
-    constexpr double slower = 100;
+    // Who asks for revolutions of drives that scatter has each member's own.
     auto const periods = drive_periods(scene);
-    double const longest = scene.chaos.span.revolutions && periods.varied != nullptr ? std::min(periods.most, slower * turn) : turn;
-    double const seconds = scene.chaos.span.seconds(longest);
+    bool const differ = reading.given("study.revolutions") != nullptr && periods.varied != nullptr;
+    if (differ && !std::isfinite(periods.most))
+        refuse(*node, {fmt::format("{} may be 0, where revolutions do not end", periods.varied->name), "vary it within limits of one sign, or use study.duration"});
+    double const longest = differ ? periods.most : turn, seconds = scene.chaos.span.seconds(longest);
     if (seconds > 0 && seconds <= longest_time) return seconds;
     std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, longest), advice = fmt::format("stay below {} s", longest_time);
     if (node != nullptr) refuse(*node, {reason, advice});
@@ -105,7 +106,7 @@ void read_times(Reading const& reading, double end) {
     scene.sample_times = uniform_times(length, read_samples(reading, length));
     if (scene.goes_by_turns()) return;
     Key const* const varied = drive_periods(scene).varied;
-    if (!scene.chaos.span.revolutions || varied == nullptr) scene.chaos.span = {end, false};
+    if (reading.given("study.revolutions") == nullptr || varied == nullptr) scene.chaos.span = {end, false};
     else if (Node const* const samples = reading.given_of({"study.samples", "study.samples_per_revolution"}); samples != nullptr && !scene.sample_times.empty())
         refuse(*samples, {fmt::format("members are sampled at common times, and their revolutions last differently: {} is drawn", varied->name), "use study.duration in place of study.revolutions"});
 }

@@ -39,6 +39,11 @@ public:
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
             faults = faults.or_else(refresh(pack, shadow, fresh));
+            if constexpr (have_events && requires { pack.model.remembers(); }) {
+                auto& [memory, watch] = shadow.contacts;
+                bool const remembers = pack.needs.cuts() && pack.model.remembers();
+                if (remembers && any(watch.take_start(fresh, report_.contact, memory))) faults = faults.or_else(evaluate(pack, shadow, fresh));
+            }
             broken = broken | (fresh & !is_finite(shadow.y, shadow.rates, pack.states()));
         }
         return broken;

@@ -25,7 +25,13 @@ public:
             pack.count_evaluations(pack.busy, 1);
             watch.begin(pack.busy, report.contact, memory, pack.needs.watching);
         }
-        return Faults<Real>::none();
+        auto faults = Faults<Real>::none();
+        if constexpr (requires { pack.model.remembers(); }) {
+            if (!pack.needs.cuts() || !pack.model.remembers()) return faults;
+            auto const touching = watch.take_start(pack.busy, report.contact, memory);
+            if (any(touching)) faults = pack.restart(touching, rates, report).within(touching);
+        }
+        return faults;
     }
 
     SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {

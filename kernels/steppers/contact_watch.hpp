@@ -30,6 +30,20 @@ public:
         if (watching == Watching::clocks) note_face(memory);
     }
 
+    /// Pairs that touch at the start have met as fast as they then move.  @return lanes with some, where the derivative is another
+    template <class Contact> SLIDEWAY_FN Mask<Real> take_start(Mask<Real> fresh, Contact const& r, Memory& memory) const {
+        auto touching = mask_of<Real>(false);
+        for (int face = 0; face < quads; ++face) {
+            auto const take = [&](Real, Real depth, Real rate, Real& speed) {
+                auto const meets = fresh & (depth > Real(0.0)) & (rate > speed);
+                speed = select(meets, rate, speed);
+                touching = touching | meets;
+            };
+            each_pair(face, take, r.penetration[face], r.rate[face], memory.impact_speed[face]);
+        }
+        return touching;
+    }
+
     /// The clock of the next step: the shallowest of the pairs that touch, none where a member flies.
     SLIDEWAY_FN ContactClock<Real> clock(Memory const& memory) const {
         Real depth(1e300);

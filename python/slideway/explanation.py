@@ -63,7 +63,7 @@ def explain(result: StrPath | xr.Dataset, member: int | None = None, time: float
 
     Args:
         result: a Dataset of slideway.open or slideway.run, or the path of its file.
-        member: its number; left out: the first of the file.
+        member: its number; left out: the first of the selection, or of the file.
         time: [s]; the stored state that is nearest to it is taken; left out: the member's end.
         program: path of the program; left out: SLIDEWAY_PROGRAM, else the PATH.
 
@@ -75,6 +75,8 @@ def explain(result: StrPath | xr.Dataset, member: int | None = None, time: float
     >>> found.stored, round(found.time, 4), len(found.pairs)
     ('sample', 0.01, 16)
     """
+    if member is None and isinstance(result, xr.Dataset) and "member" in result.coords:
+        member = int(np.atleast_1d(result["member"].values)[0])
     options = [] if member is None else ["--member", str(arguments.whole(member, "member", 0))]
     if time is not None:
         options += ["--time", repr(float(arguments.numbers(time, "time")))]

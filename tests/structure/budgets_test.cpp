@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 19'945u);
+    EXPECT_LE(Layer("kernels").lines(), 19'963u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'198u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'914u);
-    EXPECT_LE(Layer("host").lines(), 32'421u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'924u);
+    EXPECT_LE(Layer("host").lines(), 32'423u);
     EXPECT_LE(Layer("host/store").lines(), 4'570u);
 }
 

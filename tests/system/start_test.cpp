@@ -31,6 +31,22 @@ TEST_F(Starts, InsideAStopOrOffTheWayAreRefused) {
     expect_refusal(2, "[way_ends], off which it may begin,", {"check", "ends.toml"});
 }
 
+/// The speed of a touch is that of the start where this touches: F (1 + a) with a(0.5) = 1.433, and not 100 times that.
+TEST_F(Starts, ThatTouchHaveMetAsFastAsTheyMove) {
+    for (std::string const& method : {std::string("auto"), std::string("dopri5"), std::string("verner65")}) {
+        write("deep.toml", "schema = 1\n[mechanism]\nkind = \"free_slider\"\ngravity = 0\n[contact]\nlaw = \"foundation\"\nrestitution = 0.5\n[initial]\nvy = \"10 mm/s\"\n"
+                           "[integrator]\nmethod = \"" + method + "\"\n[study]\nduration = \"1 ms\"\nverify = 0\nquantities = [\"peak_normal_force\"]\n");
+        auto const peak = [&](std::string const& y) {
+            EXPECT_EQ(run({"run", "deep.toml", "-o", "o.nc", "--force", "--no-progress", "--set", "initial.y=" + y}).code, 0);
+            return results("o.nc").values("peak_normal_force")[0];
+        };
+        double const grazing = peak("0.1 mm"), in = peak("0.10002 mm");
+        EXPECT_NEAR(grazing, 495, 20) << method;
+        EXPECT_GT(in, grazing) << method;
+        EXPECT_LT(in, 1.6 * grazing) << method;
+    }
+}
+
 TEST_F(Starts, OfAFewMembersAreCounted) {
     std::vector<std::string> const some{"--set", "study.vary.\"initial.y\"={dist=\"unif\", low=\"0 mm\", high=\"0.2 mm\"}"};
     std::vector<std::string> words{"check", "s.toml"};

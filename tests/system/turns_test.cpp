@@ -91,6 +91,8 @@ TEST_F(ByTurns, MembersOfDrivesThatScatterEndAfterTheirOwnRevolutions) {
     auto const speeds = file.values("mechanism_crank_speed"), ends = file.values("end_time");
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(ends[i], 2 * pi / speeds[i], 1e-12) << i;
     write("s.toml", text("kind = \"slider_crank\"\n", "\"mechanism.crank_speed\" = {dist = \"unif\", low = 10, high = 20}\n"));
+    expect_refusal(2, "mechanism.crank_speed may be 0, where revolutions do not end", {"check", "s.toml", "--set", "study.vary.\"mechanism.crank_speed\".low=-1"});
+    EXPECT_NE(run({"check", "s.toml"}).out.find("each over 1 revolutions of its own, 0.628319 s at most"), std::string::npos);
     expect_refusal(2, "members are sampled at common times, and their revolutions last differently: mechanism.crank_speed is drawn",
                    {"check", "s.toml", "--set", "study.samples=5", "study.kind=ensemble"});
 }
