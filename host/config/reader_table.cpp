@@ -268,6 +268,13 @@ void take_members(Scene& scene, std::vector<std::string> const& names, std::span
         fail("cannot take inputs of members: a sweep and correlated draws have a design of their own; use study.kind = \"ensemble\"");
     }
     if (names.empty() || values.empty() || values.size() % names.size() != 0) fail("inputs of members need keys, and rows of one number for each");
+    // Rows of the scene's own table are not of these members.
+    for (Variation const& own : scene.variations) {
+        auto const is_own = [&](std::string const& name) { return find_key(name, scene) != nullptr && own.key->overlaps(*find_key(name, scene)); };
+        if (own.column != Variation::no_column && std::ranges::none_of(names, is_own))
+            fail(fmt::format("study.table has a column of {}, which inputs of members lack; give it too", own.key->name));
+    }
+    std::erase_if(scene.variations, [](Variation const& own) { return own.column != Variation::no_column; });
     auto table = std::make_shared<MemberTable>();
     table->columns = names.size();
     table->values.assign(values.begin(), values.end());

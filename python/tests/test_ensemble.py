@@ -140,6 +140,16 @@ def test_members_are_those_that_are_given() -> None:
     assert wide.sizes["member"] == 2 and wide.joint_clearance.values.tolist() == [1e-4, 2e-4]
 
 
+def test_members_of_a_scenes_table_may_be_given_too() -> None:
+    ensemble = slideway.Ensemble(scenes / "tolerance_table.toml", study__duration="1 ms", study__verify=0)
+    drawn = ensemble.members()
+    as_drawn = ensemble.run()
+    given = ensemble.run(inputs={key: drawn[key.replace(".", "_")].values for key in ensemble.inputs})
+    np.testing.assert_array_equal(given.drive_work.values, as_drawn.drive_work.values)
+    with pytest.raises(slideway.SceneError, match=r"study\.table has a column of .*, which inputs of members lack"):
+        ensemble.run(inputs={"friction.kinetic": [0.1]})
+
+
 @pytest.mark.parametrize(
     ("inputs", "says"),
     [
