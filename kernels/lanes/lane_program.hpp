@@ -201,8 +201,7 @@ private:
         auto faults = pack_.evaluate(c.t, c.y, contacts.memory, rates, pack_.needs.ends, report);
         pack_.count_evaluations(pack_.busy, 1);
         auto const whole = is_finite(c.y, rates, pack_.states());
-        if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, report, c.y, pack_.needs.switches);
-        pack_.with_records([&](auto& record, auto...) { record.start(pack_.busy, report); });
+        pack_.start_observing(pack_.busy, report);
         pack_.begin_next(pack_.busy, rates, report);
         Neighbours<Model, Real> neighbours(block_.shadows);
         // By whatever stepper they go on.

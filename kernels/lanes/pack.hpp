@@ -134,6 +134,12 @@ template <class Model, class Real> struct Pack {
         with_records([&](auto& record, auto...) { record.begin_next(in, report); });
     }
 
+    /// Begins what is observed of members, in the lanes of the mask.
+    SLIDEWAY_HD void start_observing(Mask<Real> in, Report const& report) {
+        if (needs.quantities) state.observation.observer.start(in, report, state.course.y, needs.switches);
+        with_records([&](auto& record, auto...) { record.start(in, report); });
+    }
+
     /// Evaluates derivative and report again where members are, in lanes whose impact speeds or contacts have changed.
     SLIDEWAY_HD Faults<Real> restart(Mask<Real> in, Real* rates, Report& report) {
         auto const faults = evaluate(state.course.t, state.course.y, state.contacts.memory, rates, true, report);

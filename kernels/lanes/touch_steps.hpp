@@ -29,7 +29,9 @@ public:
         if constexpr (requires { pack.model.remembers(); }) {
             if (!pack.needs.cuts() || !pack.model.remembers()) return faults;
             auto const touching = watch.take_start(pack.busy, report.contact, memory);
-            if (any(touching)) faults = pack.restart(touching, rates, report).within(touching);
+            if (none(touching)) return faults;
+            faults = pack.restart(touching, rates, report).within(touching);
+            pack.start_observing(touching, report);
         }
         return faults;
     }
