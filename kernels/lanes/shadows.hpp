@@ -41,8 +41,9 @@ public:
             faults = faults.or_else(refresh(pack, shadow, fresh));
             if constexpr (have_events && requires { pack.model.remembers(); }) {
                 auto& [memory, watch] = shadow.contacts;
-                bool const remembers = pack.needs.cuts() && pack.model.remembers();
-                if (remembers && any(watch.take_start(fresh, report_.contact, memory))) faults = faults.or_else(evaluate(pack, shadow, fresh));
+                auto touching = mask_of<Real>(false);
+                if (pack.needs.cuts() && pack.model.remembers()) touching = watch.take_start(fresh, report_.contact, memory);
+                if (any(touching)) faults = faults.or_else(evaluate(pack, shadow, touching));
             }
             broken = broken | (fresh & !is_finite(shadow.y, shadow.rates, pack.states()));
         }

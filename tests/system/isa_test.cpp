@@ -69,6 +69,20 @@ void InstructionSets::expect_one_hash_with(std::vector<std::string> const& laws)
 TEST_F(InstructionSets, HaveOneHashWithEachLaw) { expect_one_hash_with({"paper", "conservative", "kelvin_voigt", "foundation"}); }
 TEST_F(InstructionSets, HaveOneHashWithRigidContacts) { expect_one_hash_with({"rigid"}); }
 
+/// Starts that touch know their speed from then on, of neighbours too: what that costs is not for those beside them in a pack to pay.
+TEST_F(InstructionSets, HaveOneHashWhereSomeStartsTouch) {
+    for (std::string const study : {"kind = \"lyapunov\"\ntransient_revolutions = 0\nrevolutions = 0.001\n", "duration = \"0.8 ms\"\n"}) {
+        write("s.toml", "schema = 1\n[contact]\nlaw = \"foundation\"\nrestitution = 0.5\n[friction]\n[study]\nseed = 7\nmembers = 13\nverify = 0\n" + study +
+                            "[study.vary]\n\"initial.y\" = {dist=\"unif\", low=\"-0.105 mm\", high=\"0.105 mm\"}\n\"initial.vy\" = {dist=\"unif\", low=-0.02, high=0.02}\n");
+        for (Isa const isa : built_isas()) {
+            if (!is_supported(isa)) continue;
+            std::string const name(name_of(isa));
+            run_with(name, name + ".nc");
+            EXPECT_EQ(hash_of(name + ".nc"), hash_of("scalar.nc")) << name << ", " << study;
+        }
+    }
+}
+
 TEST_F(InstructionSets, OfMachinesWithoutFusedMultiplyAddAreScalarAndSlow) {
     if (!is_supported(Isa::scalar_libm)) GTEST_SKIP() << "scalar_libm is not in this build";
     Outcome const outcome = run_with("scalar_libm", "libm.nc");
