@@ -6,7 +6,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The offset of a shadow from its member, in the scales of the state, and behind it that of the impact speeds that both remember.
+/// The offset of a shadow from its member, in the scales of the state, and behind it that of the impact speeds that both remember.  These are part of
+/// where a member is as long as their pairs touch; of others they mean nothing.
 template <class Model, class Real> struct ShadowOffset {
     using Shadow = typename MemberState<Model, Real>::Shadow;
     using Memory = typename Model::template Memory<Real>;
@@ -17,7 +18,11 @@ template <class Model, class Real> struct ShadowOffset {
         int const n = pack.states();
         for (int i = 0; i < n; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
         if constexpr (has_speeds) {
-            for (int i = n; i < width; ++i) w[i] = numbers(shadow.contacts.memory)[i - n] - numbers(s.contacts.memory)[i - n];
+            Real const scale = speed_scale(pack);
+            for (int i = n; i < width; ++i) {
+                Real const apart = (numbers(shadow.contacts.memory)[i - n] - numbers(s.contacts.memory)[i - n]) / scale;
+                w[i] = select(both_touch(pack, shadow, i - n), apart, Real(0.0));
+            }
         }
     }
 
@@ -28,10 +33,11 @@ template <class Model, class Real> struct ShadowOffset {
             shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
         }
         if constexpr (has_speeds) {
+            Real const scale = length * speed_scale(pack);
             for (int i = n; i < width; ++i) {
                 Real& number = numbers(shadow.contacts.memory)[i - n];
                 Real const own = numbers(s.contacts.memory)[i - n];
-                number = select(in, Model::remembered(fma(length, w[i], own)), number);
+                number = select(in & both_touch(pack, shadow, i - n), Model::remembered(fma(scale, w[i], own)), number);
             }
         }
     }
@@ -51,6 +57,15 @@ template <class Model, class Real> struct ShadowOffset {
 
 private:
     static constexpr bool has_speeds = Memory::speeds > 0;
+    /// What velocities are measured in [m/s].
+    SLIDEWAY_FN static Real speed_scale(Pack<Model, Real> const& pack) {
+        auto const& p = pack.state.constants.parameters;
+        return Model::touch_scale(p) * p.rate_scale;
+    }
+    SLIDEWAY_FN static Mask<Real> both_touch(Pack<Model, Real> const& pack, Shadow const& shadow, int pair) {
+        Real const zero(0.0);
+        return (pack.state.contacts.watch.start_depth(pair) > zero) & (shadow.contacts.watch.start_depth(pair) > zero);
+    }
     /// The impact speeds come first in it.
     SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
     SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }

@@ -157,7 +157,8 @@ public:
     /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.  One is
     /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
     SLIDEWAY_NOINLINE void stop(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at) {
-        // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
+        // Impact speeds differ between member and shadow as the states do, and are part of the offset: one that is measured without them goes on growing in
+        // them, however it shrinks in the state.
         bool const speeds = pack.needs.cuts() && pack.needs.watching != Watching::modes;
         rescale_numbers(pack, at, pack.states() + (speeds ? Memory::speeds : 0));
         results.take_growth(pack, at);
@@ -171,11 +172,12 @@ private:
         auto& counts = pack.state.course.shadowed;
         for (int s = 0; s < plan_.count; ++s) {
             Offset::read(pack, pack.state.shadows[s], width, w[s]);
-            auto const large = inner_product(w[s], w[s], n) > Real(largest_distance * largest_distance);
+            auto const large = inner_product(w[s], w[s], width) > Real(largest_distance * largest_distance);
             counts.grown = counts.grown + count<Real>(at & large);
         }
         Real const least = Offset::rounding(pack), d0(plan_.d0);
-        orthonormalise(w, plan_.count, n, width, least, pack.model.prescribed(), length);
+        unsigned const of_state = (1u << n) - 1;
+        orthonormalise(w, plan_.count, width, least, pack.model.prescribed() | ~of_state, length);
         [[maybe_unused]] auto lost = mask_of<Real>(false);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];

@@ -16,7 +16,7 @@ namespace detail {
 /// In the lanes of the mask, the axis that the unit vectors before `w` span least, less what they span of it, as a unit vector.
 /// @param barred axes that do not count, a bit each
 template <int room, class Real>
-SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[room], int units, int n, int width, unsigned barred, Real* w) {
+SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[room], int units, int n, unsigned barred, Real* w) {
     Real most(-1.0), which(0.0);
     for (int axis = 0; axis < n; ++axis) {
         if ((barred >> axis & 1u) != 0) continue;
@@ -34,28 +34,27 @@ SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[room], in
     }
     Real const length = sqrt(inner_product(axis, axis, n));
     for (int i = 0; i < n; ++i) w[i] = select(in, axis[i] / length, w[i]);
-    for (int i = n; i < width; ++i) w[i] = select(in, Real(0.0), w[i]);
 }
 
 }  // namespace detail
 
-/// Modified Gram–Schmidt: makes `vectors` vectors orthonormal in their order.  The first n of a vector's `width` numbers count in
-/// products, the others are carried along.  A vector that the earlier ones leave no more than `least` of gives way to an axis.
-/// @param barred axes that no vector has a part along, a bit each
+/// Modified Gram–Schmidt: makes `vectors` vectors of n numbers orthonormal in their order.  One that the earlier ones leave no more than `least` of
+/// gives way to an axis.
+/// @param barred axes that it may not be, a bit each
 /// @param length [vectors] what the earlier ones left of each, R_jj of the QR decomposition
 template <int room, class Real>
-SLIDEWAY_HD void orthonormalise(Real (*w)[room], int vectors, int n, int width, Real least, unsigned barred, Real* length) {
-    SLIDEWAY_EXPECT(vectors <= n && n <= width && width <= room);
+SLIDEWAY_HD void orthonormalise(Real (*w)[room], int vectors, int n, Real least, unsigned barred, Real* length) {
+    SLIDEWAY_EXPECT(vectors <= n && n <= room && n < 32);
     for (int j = 0; j < vectors; ++j) {
         for (int k = 0; k < j; ++k) {
             Real const along = inner_product(w[k], w[j], n);
-            for (int i = 0; i < width; ++i) w[j][i] = fnma(along, w[k][i], w[j][i]);
+            for (int i = 0; i < n; ++i) w[j][i] = fnma(along, w[k][i], w[j][i]);
         }
         length[j] = sqrt(inner_product(w[j], w[j], n));
         auto const lost = !(length[j] > least);  // NaN too
         Real const inverse = Real(1.0) / select(lost, Real(1.0), length[j]);
-        for (int i = 0; i < width; ++i) w[j][i] = inverse * w[j][i];
-        if (any(lost)) detail::place_least_spanned(lost, w, j, n, width, barred, w[j]);
+        for (int i = 0; i < n; ++i) w[j][i] = inverse * w[j][i];
+        if (any(lost)) detail::place_least_spanned(lost, w, j, n, barred, w[j]);
     }
 }
 

@@ -19,6 +19,13 @@ public:
         }
     }
 
+    /// Where the next step starts, of a pair [m].
+    SLIDEWAY_FN Real start_depth(int pair) const {
+        auto const& face = start_depth_[pair / 4];
+        int const place = pair % 4;
+        return place == 0 ? face.a : place == 1 ? face.b : place == 2 ? face.c : face.d;
+    }
+
     /// The next step, ended just beyond the first change of a pair that meets its face or leaves it, with the acceleration of the step that has been made.
     /// Changes within a fiftieth of it are crossed.
     /// @param step that has been made [s]; 0 where its start is not known  @param next step without changes [s]

@@ -87,7 +87,7 @@ private:
         for (int s = 0; s < plan.count; ++s) {
             for (int i = 0; i < size; ++i) w[s][i] = shadow_[s][i] - y_[i];
         }
-        orthonormalise(w, plan.count, size, size, Real(least_distance), 0, length);
+        orthonormalise(w, plan.count, size, Real(least_distance), 0, length);
         for (int s = 0; s < plan.count; ++s) {
             auto const found = offset_growth(plan, mask_of<Real>(true), length[s], distance_[s], Real(least_distance));
             growth_[s] = growth_[s] + found.growth;

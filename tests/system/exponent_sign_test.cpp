@@ -91,6 +91,35 @@ TEST_F(ExponentSigns, OfColumnsOfASweepAreSaid) {
     EXPECT_NE(out.find("  no growth beyond a power of time\n"), std::string::npos) << out;
 }
 
+// What impacts have left in damping by restitution is part of where a member is: exponents that forgot it told chaos of a block at rest.
+TEST_F(ExponentSigns, OfABlockThatRestsWithRestitutionAreNotAboveZero) {
+    write("s.toml", R"(
+schema = 1
+[mechanism]
+kind = "planar_slider_crank"
+crank_speed = 10.0
+[contact]
+restitution = 0.5
+[friction]
+static = 0.1
+kinetic = 0.1
+[initial]
+y = -9e-5
+wz = 0.1
+[study]
+kind = "lyapunov"
+transient_revolutions = 1
+revolutions = 2
+verify = 0
+)");
+    for (int const exponents : {1, 2, 4}) {
+        Json const all = told("s.toml", {fmt::format("study.exponents={}", exponents)})["exponents"];
+        ASSERT_EQ(all.size(), static_cast<std::size_t>(exponents));
+        EXPECT_NE(all[0]["sign"], "above zero") << all;
+        for (Json const& one : all) EXPECT_LT(one["mean"]["mean"].get<double>(), 1) << all;
+    }
+}
+
 // λ₁ = 72 1/s (docs/explanation/chaos.md): 48 in five turns, 3 in three tenths of one.
 TEST_F(ExponentSigns, OfChaosAreToldOnceTheRecordIsLongEnough) {
     std::string const scene = std::string(SLIDEWAY_SCENES) + "/lyapunov_rigid.toml";
