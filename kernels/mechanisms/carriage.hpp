@@ -15,6 +15,7 @@ struct CarriageBase : DrivenBase {
         p.rate_scale = max(3.14159265358979323846 * p.stroke_rate, 1.0);
         return p;
     }
+    SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) { return p.carriage_speed; }
 };
 
 /// The rig of the paper's experiment (Qian et al. 2020, section 2; model.md 7): from x = 0 at +v for T_s = stroke/v, turned round by

@@ -45,6 +45,8 @@ struct SliderBase {
     }
 
     SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& inputs) { return slider_parameters(inputs); }
+    /// Speed [m/s] of the motion along the way, r ω.
+    SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) { return p.crank_length * p.rate_scale; }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         double const start[size] = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
@@ -90,6 +92,7 @@ struct FreeSliderBase : SliderBase {
         p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(play_y(in), play_z(in))), 1.0);
         return p;
     }
+    SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) { return max(p.length_scale_y, p.length_scale_z) * p.rate_scale; }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         SliderBase::initial_state(in, s);

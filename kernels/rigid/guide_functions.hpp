@@ -15,8 +15,6 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-template <class Real> struct RigidSliderParameters : SliderParameters<Real> { Real restitution; };
-
 /// What a scene chooses of rigid contacts.
 struct RigidConditions {
     bool friction = false, misaligned_way = false, offset_slider = false;
@@ -26,7 +24,7 @@ struct RigidConditions {
     bool integrands_alone = false;  // reports tell what is integrated, and nothing else
 
     template <class Real> SLIDEWAY_FN RigidJoint<Real> joint(JointPairs<Real> const& at, RigidSliderParameters<Real> const& p) const {
-        return {at, p, friction, Real(slip_units) * slip_scale(p)};
+        return {at, p, friction, Real(slip_units) * p.slip_scale};
     }
 };
 
@@ -62,6 +60,7 @@ template <class Guide> struct RigidGuide {
         p.restitution = in.restitution;
         in.restitution = 1;
         static_cast<SliderParameters<double>&>(p) = Guide::Base::parameters(in);
+        p.slip_scale = Guide::Base::speed_along(p);
         return p;
     }
 

@@ -20,9 +20,9 @@ public:
     using Memory = RigidJointMemory<Real>;
 
     /// @param pairs where the step has ended  @param friction nullptr without
-    SLIDEWAY_HD JointSettlement(Pairs const& pairs, SliderParameters<Real> const& p, Real restitution, FrictionParameters<Real> const* friction,
-                                Real located, Real end, Real slip_unit)
-        : pairs_(pairs), p_(p), restitution_(restitution), friction_(friction), located_(located), end_(end), slip_unit_(slip_unit) {}
+    SLIDEWAY_HD JointSettlement(Pairs const& pairs, RigidSliderParameters<Real> const& p, FrictionParameters<Real> const* friction, Real located, Real end,
+                                Real slip_unit)
+        : pairs_(pairs), p_(p), friction_(friction), located_(located), end_(end), slip_unit_(slip_unit) {}
 
     /// Which pairs meet, which are let go, and which change between slipping and sticking.  @return lanes with any of it
     SLIDEWAY_HD static Mask<Real> find(Mask<Real> in, Memory& memory, RigidJointContact<Real> const& contact, Real located,
@@ -68,7 +68,7 @@ public:
         memory.count_event(event, t, end_);
         Mask<Real> const endless = memory.quick >= Real(most_quick_events), at_once = endless | (memory.at_once >= Real(most_with_restitution));
         Real restitution[pair_count];
-        for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
+        for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, p_.restitution);
         JointImpact<Real> impact(pairs_, velocity, near, coefficient, least_speed);
         impact.solve(event, restitution);
         auto& pairs = impact.pairs;
@@ -106,7 +106,7 @@ private:
     /// far below what bounces: there it has the least slip unit.
     SLIDEWAY_HD void find_still(PairSolver<Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> met,
                                 Mask<Real> (&still)[pair_count]) const {
-        Real const slow = Real(slip_stops) * select(met, slip_scale(p_), slip_unit_);
+        Real const slow = Real(slip_stops) * select(met, p_.slip_scale, slip_unit_);
         for (auto& each : still) each = mask_of<Real>(false);
         if (friction_ == nullptr) return;
         for (int k = 0; k < pairs.count(); ++k) {
@@ -143,7 +143,7 @@ private:
             auto ended = mask_of<Real>(false), flies = ended;
             for (int i = 0; i < pair_count; ++i) {
                 Real const speed = max(lasting.gap_rate[i], zero), twice = speed + speed;
-                Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - restitution_);
+                Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - p_.restitution);
                 auto const soon = (twice <= no_flight * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
                 auto const ends = go_on & near[i] & (!rests[i]) & (braking > zero) & soon;
                 flight = max(flight, select(ends, twice / select(ends, braking, one), zero));
@@ -172,8 +172,7 @@ private:
     static constexpr double most_with_restitution = 4;
 
     Pairs const& pairs_;
-    SliderParameters<Real> const& p_;
-    Real restitution_;
+    RigidSliderParameters<Real> const& p_;
     FrictionParameters<Real> const* friction_;
     Real located_, end_, slip_unit_;
 };

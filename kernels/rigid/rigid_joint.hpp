@@ -21,7 +21,7 @@ public:
     using Contact = RigidJointContact<Real>;
 
     /// @param slip_unit [m/s]
-    SLIDEWAY_FN RigidJoint(Pairs const& at, SliderParameters<Real> const& p, bool friction, Real slip_unit)
+    SLIDEWAY_FN RigidJoint(Pairs const& at, RigidSliderParameters<Real> const& p, bool friction, Real slip_unit)
         : at_(at), p_(p), friction_(friction ? &p.joint.friction : nullptr), slip_unit_(slip_unit) {}
 
     /// Of the pairs that last, on the slider, in the frames of the way and the joint.
@@ -38,8 +38,7 @@ public:
 
     /// The impacts where a step has ended, and which pairs last from there on.  @param located depth up to which an apex is located [m]
     /// @param contact of the report there  @param velocity before and after
-    SLIDEWAY_NOINLINE void settle(Mask<Real> event, Real t, Real end, Real located, Real restitution, Memory& memory, Contact const& contact,
-                                  Twist<Real>& velocity) const;
+    SLIDEWAY_NOINLINE void settle(Mask<Real> event, Real t, Real end, Real located, Memory& memory, Contact const& contact, Twist<Real>& velocity) const;
     /// Lanes with pairs that meet, are let go, or change between slipping and sticking.  @param event those with an impact among them
     SLIDEWAY_NOINLINE static Mask<Real> find(Mask<Real> in, Memory& memory, Contact const& contact, Real located, Real least_speed, bool friction,
                                              Mask<Real>& event);
@@ -48,7 +47,7 @@ public:
     /// @param h of the step, 0 without one [s]  @param change of the rates in it without impulses [m/s]  @param start velocity at its start
     /// @param contact of the report in the middle, then with the impulses' books and modes
     /// @param velocity at its end, changed in `touching` lanes  @return lanes where there are no such impulses
-    SLIDEWAY_NOINLINE Mask<Real> push(Real h, Real change, Twist<Real> const& start, Real restitution, Contact& contact, Twist<Real>& velocity,
+    SLIDEWAY_NOINLINE Mask<Real> push(Real h, Real change, Twist<Real> const& start, Contact& contact, Twist<Real>& velocity,
                                       Mask<Real>& touching) const;
 
     /// Speed [m/s] below which a pair is at rest.
@@ -123,7 +122,7 @@ private:
     }
 
     Pairs const& at_;
-    SliderParameters<Real> const& p_;
+    RigidSliderParameters<Real> const& p_;
     FrictionParameters<Real> const* friction_;  // nullptr without
     Real slip_unit_;
 };
@@ -175,14 +174,14 @@ SLIDEWAY_HD Mask<Real> RigidJoint<Real>::find(Mask<Real> in, Memory& memory, Con
 }
 
 template <class Real>
-SLIDEWAY_HD void RigidJoint<Real>::settle(Mask<Real> event, Real t, Real end, Real located, Real restitution, Memory& memory, Contact const& contact,
+SLIDEWAY_HD void RigidJoint<Real>::settle(Mask<Real> event, Real t, Real end, Real located, Memory& memory, Contact const& contact,
                                           Twist<Real>& velocity) const {
-    JointSettlement<Real> settlement(at_, p_, restitution, friction_, located, end, slip_unit_);
+    JointSettlement<Real> settlement(at_, p_, friction_, located, end, slip_unit_);
     settlement.run(event, t, velocity, memory, contact, least_speed(p_));
 }
 
 template <class Real>
-SLIDEWAY_HD Mask<Real> RigidJoint<Real>::push(Real h, Real change, Twist<Real> const& start, Real restitution, Contact& contact, Twist<Real>& velocity,
+SLIDEWAY_HD Mask<Real> RigidJoint<Real>::push(Real h, Real change, Twist<Real> const& start, Contact& contact, Twist<Real>& velocity,
                                               Mask<Real>& touching) const {
     JointStepImpulse<Real> impulse(h, change, contact, p_);
     if (any(impulse.touching())) {
@@ -190,7 +189,7 @@ SLIDEWAY_HD Mask<Real> RigidJoint<Real>::push(Real h, Real change, Twist<Real> c
         impulse.keep_meeting(contact);
     }
     touching = impulse.touching();
-    if (any(touching)) velocity = impulse.solve(at_, start, restitution, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed(p_));
+    if (any(touching)) velocity = impulse.solve(at_, start, p_.restitution, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed(p_));
     return impulse.tell(contact);
 }
 

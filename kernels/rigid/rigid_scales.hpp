@@ -37,7 +37,11 @@ template <class Real> SLIDEWAY_FN Real force_scale(PlanarParameters<Real> const&
     return p.slider_mass * (abs(p.gravity_x) + abs(p.gravity_y) + drive);
 }
 /// Speed [m/s] along the way.
-template <class Parameters> SLIDEWAY_FN auto slip_scale(Parameters const& p) { return p.crank_length * p.rate_scale; }
+template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
+template <class Real> struct RigidSliderParameters : SliderParameters<Real> {
+    Real restitution;
+    Real slip_scale;  // as of the planar slider, of what guides this one
+};
 
 /// A pair of the joint that slips slower than this comes to rest [slip units], and one that sticks slips from `slip_again` on.
 inline constexpr double slip_stops = 3e-7, slip_again = 1e-6;

@@ -111,7 +111,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
         if (none(event)) return changed;
         auto const at = place(t, s, p);
         auto velocity = at.velocity;
-        block.joint(at, p).settle(event, t, end, where, p.restitution, memory, contact, velocity);
+        block.joint(at, p).settle(event, t, end, where, memory, contact, velocity);
         put_velocity(event, at, velocity, s);
         return changed;
     }
@@ -141,7 +141,7 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
         auto const at = place(t, free, p);
         auto velocity = at.velocity;
         Mask<Real> touching;
-        auto const failed = block.joint(at, p).push(h, (changed(2) + changed(3)) + of_apices, place(t, s, p).velocity, p.restitution, contact, velocity, touching);
+        auto const failed = block.joint(at, p).push(h, (changed(2) + changed(3)) + of_apices, place(t, s, p).velocity, contact, velocity, touching);
         put_velocity(touching, at, velocity, free);
         return failed;
     }

@@ -240,6 +240,27 @@ TEST(RigidJoint, GrooveHoldsBelowItsAngleOfFrictionAndNotAbove) {
     }
 }
 
+/// Slips are seen against √(g c), whatever length a crank would have: a tenth of a millisecond of static friction where it is exceeded by 1e-4 of it.
+TEST(RigidJoint, SlipsAtOnceWhereStaticFrictionGivesWay) {
+    for (double const clearance : {1e-6, 1e-4, 1e-3}) {
+        auto in = slider(0.5);
+        in.friction_static = 0.3, in.friction_kinetic = 0.2;
+        in.inclination = std::atan(0.3 * (1 + 1e-4));
+        in.clearance_y = in.clearance_z = clearance;
+        in.y = -clearance;
+        double const end = 0.1, pull = in.gravity * (std::sin(in.inclination) - in.friction_kinetic * std::cos(in.inclination));
+        auto const r = testing::run(best_isa(), rigid_options(rigid_joint_parts(true), 1e-6, end), {in});
+        ASSERT_EQ(r.records[0].status, Status::finished) << clearance;
+        EXPECT_NEAR(r.states[0][11], -pull * end, 1e-2 * pull * end) << clearance;
+        EXPECT_NEAR(r.states[0][10], -pull * end * end / 2, 1e-2 * pull * end * end / 2) << clearance;
+    }
+    auto slow = slider(0.5, 1e-3);
+    slow.clearance_y = slow.clearance_z = 1e-7;
+    slow.y = -1e-7, slow.vx = 1e-4;
+    auto const r = testing::run(best_isa(), rigid_options(rigid_joint_parts(true), 1e-9, 0.02), {slow});
+    EXPECT_NEAR(r.states[0][10], slow.vx * slow.vx / (2e-3 * slow.gravity), 1e-10);
+}
+
 TEST(RigidJoint, SlidesInAStraightLineUntilItStops) {
     auto in = slider(0.5, 0.2);
     in.clearance_z = 0.02;
