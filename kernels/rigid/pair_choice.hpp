@@ -45,6 +45,7 @@ public:
     }
 
     SLIDEWAY_HD PairAnswer<Real> answer(bool friction) {
+        friction_ = friction;
         if (friction) {
             for (int i = 0; i < 4; ++i) {
                 for (int j = 0; j < 4; ++j) {
@@ -92,7 +93,7 @@ private:
         Real const way = doing == forwards ? Real(1.0) : Real(-1.0);
         Real const wrong = select(q.slips[contact], select(q.way[contact] == way, zero, impossible), negated(way * after.along[contact]));
         // Without friction there is but one slip, and no way of it.
-        return max(pull, select(q.kinetic > zero, wrong, zero));
+        return friction_ ? max(pull, wrong) : pull;
     }
 
     SLIDEWAY_HD void attempt(int first, int second) {
@@ -117,6 +118,7 @@ private:
     ContactPair<Real> const& pair_;
     PairQuestion<Real> const& question_;
     PairAnswer<Real> best_;
+    bool friction_ = false;
     Real rounding_;  // of its motion
 };
 

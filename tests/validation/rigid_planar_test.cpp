@@ -81,6 +81,18 @@ TEST(RigidPlanar, TiltedBlockWithFrictionIsThatOfTheReference) {
     EXPECT_LT(d.offset, 1e-8);
 }
 
+/// Coefficients of 0 are as no friction: a contact that lasts slips either way, and none of that ends it.
+TEST(RigidPlanar, CoefficientsOfZeroAreAsNoFriction) {
+    auto in = with_friction_and_spin();
+    in.friction_static = in.friction_kinetic = 0;
+    auto const without = testing::run(best_isa(), rigid_options(rigid_planar_parts(false, true), 1e-9, 0.1), {in});
+    auto const with = testing::run(best_isa(), rigid_options(rigid_planar_parts(true, true), 1e-9, 0.1), {in});
+    ASSERT_EQ(with.records[0].status, Status::finished);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(with.states[0][i], without.states[0][i], 1e-9 * std::max(1.0, std::abs(without.states[0][i]))) << i;
+    in.friction_static = 0.1;
+    EXPECT_EQ(testing::run(best_isa(), rigid_options(rigid_planar_parts(true, true), 1e-9, 0.1), {in}).records[0].status, Status::finished);
+}
+
 TEST(RigidPlanar, ConvergesWithTheOrderOfItsMethod) {
     auto const in = with_friction_and_spin();
     auto const expected = reference(in, true);
