@@ -34,8 +34,9 @@ public:
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
     SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
         for (int i = 0; i < 3; ++i) {
+            // Weights of stages may be negative: of next to nothing the sum may be less than nothing.
             this->put(selected, row, Quantity::peak_acceleration, i, this->peak(i, index));
-            this->put(selected, row, Quantity::rms_acceleration, i, time > 0 ? sqrt(this->integral(i, index) / time) : 0.0);
+            this->put(selected, row, Quantity::rms_acceleration, i, time > 0 ? sqrt(max(this->integral(i, index), 0.0) / time) : 0.0);
         }
         for (int i = 0; i < 2; ++i) {
             this->put(selected, row, Quantity::peak_channel_acceleration, i, this->peak(3 + i, index));

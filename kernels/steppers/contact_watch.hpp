@@ -174,10 +174,8 @@ public:
     SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real*, Watching watching, Real step = Real(0.0),
                                   Real* next = nullptr) {
         auto changed = mask_of<Real>(false);
-        if (watching != Watching::gaps)
-            changed = watching == Watching::modes ? turn_pairs(accepted, end, memory) : take_speeds(accepted, end, memory);
-        else if (next != nullptr)
-            *next = select(accepted, this->next_step(end, step, *next), *next);
+        if (watching != Watching::gaps) changed = watching == Watching::modes ? turn_pairs(accepted, end, memory) : take_speeds(accepted, end, memory);
+        if (next != nullptr && looks_ahead(watching)) *next = select(accepted, this->next_step(end, step, *next), *next);
         this->keep(accepted, end);
         return changed;
     }
