@@ -57,9 +57,7 @@ private:
     SLIDEWAY_FN static Real sum_of(Pack<Model, Real> const& pack, IntegratorSettings const& settings, StepStart<Model, Real> const& from,
                                    Attempt<Model, Real> const& to, Real const* errors, Real const* audit_error) {
         SquaredRatios<Real> sum;
-        int const n = pack.states();
-        if (size > usual_states && n == usual_states) add(pack, settings, from, to, errors, usual_states, sum);
-        else add(pack, settings, from, to, errors, n, sum);
+        pack.states().visit([&](auto n) { add(pack, settings, from, to, errors, n, sum); });
         add_audit(pack, settings, from, to, audit_error, sum);
         return sum.total();
     }

@@ -26,9 +26,7 @@ public:
         to.faults = Faults<Real>::none();
         if (from.needs.stages) pack.begin_integrals(weights(0));
         prepared_ = mask_of<Real>(false);
-        if (has_usual_size()) take_stages(usual, pack, from, to);
-        else if (states_ == size) take_stages(whole, pack, from, to);
-        else take_stages(states_, pack, from, to);
+        states_.visit([&](auto n) { take_stages(n, pack, from, to); });
     }
 
     /// Error estimates of the components.
@@ -55,10 +53,6 @@ public:
 
 private:
     static constexpr int size = Model::size;
-    // Loops of constant length hold their sums in registers.
-    static constexpr std::integral_constant<int, size < usual_states ? size : usual_states> usual{};
-    static constexpr std::integral_constant<int, size> whole{};
-    SLIDEWAY_FN bool has_usual_size() const { return size > usual_states && states_ == usual_states; }
 
     /// @param n components of the state
     template <class Count> SLIDEWAY_FN void take_stages(Count n, Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
@@ -81,13 +75,10 @@ private:
     }
 
     SLIDEWAY_HD void estimate(double const* weights, Attempt<Model, Real> const& to, Real* of_state) const {
-        if (has_usual_size()) estimate_of(usual, weights, to, of_state);
-        else if (states_ == size) estimate_of(whole, weights, to, of_state);
-        else estimate_of(states_, weights, to, of_state);
-    }
-    template <class Count> SLIDEWAY_FN void estimate_of(Count n, double const* weights, Attempt<Model, Real> const& to, Real* of_state) const {
-        PairNumbers::combine(weights, pair_->stages, k_, of_state, n);
-        for (int i = 0; i < n; ++i) of_state[i] = to.step * of_state[i];
+        states_.visit([&](auto n) {
+            PairNumbers::combine(weights, pair_->stages, k_, of_state, n);
+            for (int i = 0; i < n; ++i) of_state[i] = to.step * of_state[i];
+        });
     }
 
     /// Of a stage in the integrals over the step.

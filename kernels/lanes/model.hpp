@@ -48,6 +48,14 @@ public:
         if constexpr (is_said) said_ = model.states();
     }
     SLIDEWAY_FN operator int() const { return is_said ? said_ : Model::size; }
+    /// Has a function see the number, as a constant where that is usual: loops of constant length hold their sums in registers.
+    template <class Function> SLIDEWAY_FN void visit(Function const& see) const {
+        constexpr int size = Model::size, usual = size < usual_states ? size : usual_states;
+        int const n = *this;
+        if (n == usual) see(std::integral_constant<int, usual>{});
+        else if (n == size) see(std::integral_constant<int, size>{});
+        else see(n);
+    }
 
 private:
     static constexpr bool is_said = requires(Model const& model) { model.states(); };
