@@ -19,6 +19,7 @@ struct KelvinVoigt {
     static constexpr LawInfo info{.name = "kelvin_voigt",
                                   .words = "a linear spring and damper at each apex, no modes",
                                   .switches = false,
+                                  .ends_steps = true,
                                   .groups = groups_of(KeyGroup::elastic),
                                   .of_touching_alone = true,
                                   .keys = keys,

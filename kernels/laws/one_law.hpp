@@ -39,6 +39,7 @@ template <class Law, class Damping> struct OneLaw {
     SLIDEWAY_FN static bool couples() { return Damping::couples; }
     SLIDEWAY_FN static bool of_touching_alone() { return Law::info.of_touching_alone; }
     SLIDEWAY_FN static constexpr bool continuous() { return Law::info.continuous; }
+    SLIDEWAY_FN static constexpr bool ends_steps() { return Law::info.ends_steps; }
 };
 
 /// One of several laws with one of their dampings, chosen when the run begins; every call names its function.  The assembler for GPUs
@@ -86,6 +87,11 @@ template <class... Laws> struct AnyLaw {
         visit([&]<class One>(One) { answer = One::continuous(); });
         return answer;
     }
+    SLIDEWAY_FN bool ends_steps() const {
+        bool answer = false;
+        visit([&]<class One>(One) { answer = One::ends_steps(); });
+        return answer;
+    }
 
 private:
     /// Calls the function with the `OneLaw` that is chosen.
@@ -112,16 +118,17 @@ template <class Real> struct LawFunctions {
     Of<FaceNormals<Real>>* normals = nullptr;
     Of<FaceForces<Real>>* forces = nullptr;
     Of<FaceStiffness<Real>>* stiffness = nullptr;
-    bool rates_couple = false, touching_alone = false, is_continuous = false;
+    bool rates_couple = false, touching_alone = false, is_continuous = false, at_ends = false;
 
     SLIDEWAY_FN bool couples() const { return rates_couple; }
     SLIDEWAY_FN bool of_touching_alone() const { return touching_alone; }
     SLIDEWAY_FN constexpr bool continuous() const { return is_continuous; }
+    SLIDEWAY_FN constexpr bool ends_steps() const { return at_ends; }
 
     template <class Law, class Damping> static constexpr LawFunctions of() {
         using One = OneLaw<Law, Damping>;
         return {&One::template normals<Real>, &One::template forces<Real>, &One::template stiffness<Real>, Damping::couples,
-                Law::info.of_touching_alone, Law::info.continuous};
+                Law::info.of_touching_alone, Law::info.continuous, Law::info.ends_steps};
     }
 };
 

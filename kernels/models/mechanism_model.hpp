@@ -27,7 +27,7 @@ template <class Laws> struct ConditionsOfBlock : ModelDefaults {
     /// At which events of the contacts steps end.  @param neighbours members have some beside them
     SLIDEWAY_HD Watching watching(bool locate_modes, bool neighbours) const {
         if (block.remembers) return neighbours && block.switches ? Watching::touches_and_parts : Watching::touches;
-        if (block.can_locate_modes() && locate_modes) return Watching::modes;
+        if (block.law.ends_steps() || (block.can_locate_modes() && locate_modes)) return Watching::modes;
         return block.continuous ? Watching::gaps : Watching::nothing;
     }
 };

@@ -92,5 +92,26 @@ TEST(KelvinVoigtImpact, ThatIsDampedNeverPulls) {
     }
 }
 
+/// The force of the damper jumps at each touch: steps end there, or would become shorter without end the tighter their tolerance.
+TEST(KelvinVoigtImpact, WithADamperIsFinishedAtEveryTolerance) {
+    for (double const damping : {0.0, 1e4, 1e5, 1e6}) {
+        Inputs in = with_presets({}, Law::kelvin_voigt);
+        in.law_b = damping;
+        in.crank_speed = 10;
+        in.clearance_y = in.clearance_z = clearance;
+        in.y = 3e-5, in.pitch = 5e-4, in.yaw = -3e-4, in.roll = 4e-4;
+        testing::RunOptions o;
+        o.parts = {Law::kelvin_voigt, Damping::point, true, false, Mechanism::slider_crank};
+        o.settings.end_time = 0.03;
+        for (double const tolerance : {1e-6, 1e-8, 1e-10}) {
+            o.settings.rtol = o.settings.atol = tolerance;
+            auto const r = testing::run(best_isa(), o, {complete_inputs(in)});
+            ASSERT_EQ(r.records[0].status, Status::finished) << damping << ' ' << tolerance;
+            EXPECT_LT(std::abs(r.value(0, Quantity::energy_residual)), 1e-2 * tolerance) << damping;
+            EXPECT_GT(r.value(0, Quantity::contact_onsets), 1) << damping;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace slideway::kelvin_voigt_test
