@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The clearances of Fig. 17 of Qian et al. (2020) under the published and the conservative law, and 0.1 mm under undamped springs, at
 # the apices and as a bed, with an eighth of the members, because their contacts vibrate long: largest Lyapunov exponents and energy
-# audit from perturbed starts, the table of docs/explanation/chaos.md.  Usage: scripts/chaos_table.sh [FOLDER [MEMBERS [THREADS]]]; on two cores
+# audit from perturbed starts, the table of docs/evidence/chaos.md.  Usage: scripts/chaos_table.sh [FOLDER [MEMBERS [THREADS]]]; on two cores
 # two minutes a row under the published law, a quarter of an hour at 0.1 mm under the conservative one and a minute elsewhere, two and
 # nine minutes under the springs.
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Members a second and core of rigid and compliant contacts beside one another (docs/how_to/rigid.md): the planar slider-crank, 0.1 mm, two turns, and the spatial
+# Members a second and core of rigid and compliant contacts beside one another (docs/evidence/rigid.md): the planar slider-crank, 0.1 mm, two turns, and the spatial
 # one at rest and rattling; in turn, three times; medians.  Usage: scripts/rigid_rates.sh [PROGRAM].  A minute and a half.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from .members import statuses
+from .members import numbers, statuses
 from .scenes import scene
 
 Array = NDArray[np.float64]
@@ -15,28 +15,25 @@ Array = NDArray[np.float64]
 def drawn(result: xr.Dataset) -> NDArray[np.bool_]:
     """Which stored members are draws of the distribution: all, but of a saltelli design those of A and B, the first two of each row.
 
-    The others repeat their inputs but for one, so that distributions and yields of the file leave them out.
+    The others repeat their inputs but for one, so that distributions and yields of the file leave them out. A selection that has no
+    draws is taken as it is.
     """
-    if not _repeats_inputs(result):
-        return np.full(result.sizes.get("member", 0), True)
-    return np.asarray(result["member"].values % _row_of_design(result) < 2)
+    draws = _draws(result)
+    return draws if draws.any() else ~draws
 
 
 def whose(result: xr.Dataset) -> str:
     """What those members are called."""
-    return "draws" if _repeats_inputs(result) else "members"
+    return "draws" if _is_radial(result) and _draws(result).any() else "members"
 
 
-def _row_of_design(result: xr.Dataset) -> int:
-    """Members of a row of a saltelli design; 0 of other designs."""
-    study = scene(result).get("study", {}) if "scene" in result.attrs else {}
-    return len(study["vary"]) + 2 if study.get("design") == "saltelli" else 0
+def _is_radial(result: xr.Dataset) -> bool:
+    return "scene" in result.attrs and scene(result).get("study", {}).get("design") == "saltelli"
 
 
-def _repeats_inputs(result: xr.Dataset) -> bool:
-    """Whether it has all members of a saltelli design; a selection of some is taken as it is."""
-    row = _row_of_design(result)
-    return row > 0 and result.sizes.get("member", 0) == row * int(scene(result)["study"]["base"])
+def _draws(result: xr.Dataset) -> NDArray[np.bool_]:
+    there = np.asarray(numbers(result), dtype=int)
+    return there % (len(scene(result)["study"]["vary"]) + 2) < 2 if _is_radial(result) else there >= 0
 
 
 def ran(result: xr.Dataset) -> int:

@@ -78,6 +78,9 @@ def scene_text(scene: StrPath | Mapping[str, Any]) -> SceneFile:
 def _in_memory(scene: Mapping[str, Any], name: str) -> SceneFile:
     study = scene.get("study")
     if isinstance(study, Mapping) and isinstance(study.get("table"), (str, os.PathLike)):
+        if not study["table"]:
+            raise SceneError(2, 'study.table is "": no scene holds rows that Ensemble.run(inputs=...) was given; run a member of them by its '
+                                "slideway.scene(result, member=K), or name a file")
         # The program looks for a table beside the scene, which has no place of its own.
         scene = {**scene, "study": {**study, "table": os.path.abspath(study["table"])}}
     text = to_toml(scene)

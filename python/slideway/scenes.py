@@ -9,6 +9,7 @@ from typing import Any
 import xarray as xr
 
 from .arguments import dataset, members, one_line
+from .ensemble import Ensemble
 from .errors import SlidewayError
 from .former_names import words_of_now
 from .members import numbers, with_members
@@ -27,11 +28,13 @@ def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) 
     """The scene that was run, all defaults filled in, as nested dictionaries in SI units.
 
     Args:
-        member: with the values that this member drew, where keys vary.
-        derived: also what is derived from other keys, such as masses from sizes; without it the scene can be run again.
+        member: with this member's own values, where keys vary. Of ``Ensemble.run(inputs=...)``, whose rows no scene holds, it is a
+            scene of this member alone.
+        derived: also what is derived from other keys, such as masses from sizes, a member's from its own values; without it the
+            scene can be run again.
 
     Raises:
-        SlidewayError: the Dataset carries no scene, or has no such member.
+        SlidewayError: the Dataset carries no scene, or has no such member, or what is derived of it cannot be told.
 
     >>> scene = slideway.scene(slideway.example())
     >>> scene["mechanism"]["crank_length"]
@@ -43,33 +46,55 @@ def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) 
     if not text or not isinstance(text, str):
         raise SlidewayError("this Dataset carries no scene; use the one that slideway.open or slideway.run returned")
     text = words_of_now(text)
-    resolved = tomllib.loads(_derived.sub(r"\1", text) if derived else text)
-    if member is not None:
-        _draw(resolved, result, member)
+    resolved = tomllib.loads(text)
+    values = {} if member is None else values_of(result, member)
+    _put(resolved, values)
+    study = resolved.get("study", {})
+    if member is not None and has_rows_of_inputs(study):
+        resolved["study"] = {key: value for key, value in study.items() if key not in ("design", "table")} | {"members": 1}
+    if derived:
+        if values:
+            text = Ensemble({name: table for name, table in resolved.items() if name != "study"}).resolved
+        resolved = tomllib.loads(_derived.sub(r"\1", text)) | ({"study": resolved["study"]} if study else {})
     return resolved
+
+
+def has_rows_of_inputs(study: dict[str, Any]) -> bool:
+    """Whether the members of a scene's [study] are rows of ``Ensemble.run(inputs=...)``: a table without a file."""
+    return study.get("table") == ""
 
 
 @one_line
 def varied(result: xr.Dataset) -> dict[str, str]:
-    """Dotted keys that differ between members, and the variable that holds each of them.
+    """Dotted keys that differ between members, and the variable of a whole result that holds each of them.
 
     >>> slideway.scenes.varied(slideway.example())
     {'joint.clearance': 'joint_clearance'}
     """
+    # Variables of the newest results name their keys; of a table, or of given inputs, no scene does.
+    named = {str(data.attrs["key"]): str(name) for name, data in result.variables.items() if "key" in data.attrs}
     study = scene(result).get("study", {})
     keys = [*study.get("vary", {}), *([study["parameter"]] if "parameter" in study else [])]
-    return {key: key.replace(".", "_") for key in keys if key.replace(".", "_") in result}
+    return {key: key.replace(".", "_") for key in keys} | named
 
 
-def _draw(resolved: dict[str, Any], result: xr.Dataset, member: int) -> None:
-    """Puts what a member drew in the place of the common values."""
+def values_of(result: xr.Dataset, member: int) -> dict[str, float]:
+    """What a member has of the dotted keys that differ between members.
+
+    >>> slideway.scenes.values_of(slideway.example(), 3)
+    {'joint.clearance': ...}
+    """
     result = with_members(result)
     (member,) = members(member, numbers(result))[:1]
+    return {key: float(result[variable].sel(member=member)) for key, variable in varied(result).items() if variable in result}
+
+
+def _put(resolved: dict[str, Any], values: dict[str, float]) -> None:
+    """Puts what a member has in the place of the common values."""
     both = {"joint.clearance": ("clearance_y", "clearance_z"),
             "contact.young_modulus": ("slider_young_modulus", "way_young_modulus")}
-    for key, variable in varied(result).items():
+    for key, value in values.items():
         *groups, name = key.split(".")
-        value = float(result[variable].sel(member=member))
         for each in both.get(key, (name,)):
             table = resolved
             for group in groups:

@@ -43,17 +43,17 @@ class SeriesStatistics:
 
 @one_line
 def stats(
-    result: StrPath | xr.Dataset, variable: str = "y", member: int | None = None, *, program: StrPath | None = None, **options: object
+    result: StrPath | xr.Dataset, variable: str | None = None, member: int | None = None, *, program: StrPath | None = None, **options: object
 ) -> SeriesStatistics:
     """Delay, dimension, exponent after Rosenstein and 0-1 test of a stored series (`slideway stats`).
 
     Args:
         result: a result with a time series, or its path; a CSV table also does.
-        variable: of the result.
+        variable: of the result, or the column of a table; left out: y, or the table's last column.
         member: of the result; left out: its first.
         program: path of the program; left out: SLIDEWAY_PROGRAM, else the PATH.
         **options: those of the program, underscores for hyphens: skip, skip_samples, max_points, delay, dimension, theiler, fit ("31..94"),
-            and of a table column, dt.
+            and of a table dt.
 
     Raises:
         SceneError: no such variable, or too few samples.
@@ -75,8 +75,8 @@ def stats(
         if option not in _options:
             raise SlidewayError(f"stats() has no argument {option}, but {', '.join(_options)}")
     arguments = ["stats", path]
-    if "column" not in options and not path.endswith(".csv"):
-        arguments += ["--variable", text(variable, "variable")]
+    if variable is not None:
+        arguments += ["--column" if path.endswith(".csv") else "--variable", text(variable, "variable")]
     if member is not None:
         arguments += ["--member", str(whole(member, "member", 0))]
     for option, value in options.items():

@@ -32,6 +32,17 @@ def test_a_state_is_that_of_the_series(result_of: Result) -> None:
     assert end.time == float(result.end_time.sel(member=5)) and end.state["y"] == float(result.final_y.sel(member=5))
 
 
+def test_members_of_given_inputs_are_explained_by_their_own_values() -> None:
+    study = {"duration": "20 ms", "samples": 21, "quantities": ["y", "normal_force"]}
+    scene = {"schema": 1, "contact": {"law": "conservative"}, "initial": {"y": "-0.0999 mm"}, "study": study}
+    result = slideway.Ensemble(scene).run({"joint.clearance": [1e-4, 2e-4], "joint.slider_length": [0.04, 0.08]})
+    for member, length in enumerate((0.04, 0.08)):
+        time = float(result.time[int(np.argmax(result.normal_force.values[member]))])
+        found = slideway.explain(result.sel(member=member), time=time)
+        assert (found.member, found.sizes["slider_length"]) == (member, length)
+        assert found.table().normal_force.sum() == pytest.approx(float(result.normal_force.sel(member=member, time=time)), rel=1e-9)
+
+
 def test_pairs_come_to_the_forces(result_of: Result, pushing: slideway.Explanation) -> None:
     table = pushing.table()
     assert table.shape == (16, 7) and table.index.names == ["apex", "face"]

@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.transforms import Bbox
 from slideway import palette
+from slideway.report.columns import columns
 from slideway.sampling import too_coarse
 
 Result = Callable[[str], xr.Dataset]
@@ -49,6 +50,19 @@ def test_quantiles_lie_on_the_distribution_function(name: str, result_of: Result
     dots = ax.containers[0].lines[0]
     for value, share in zip(dots.get_xdata(), dots.get_ydata(), strict=True):
         assert at(ax, value) == pytest.approx(share, abs=101 / count)
+
+
+def test_a_selection_of_a_radial_design_keeps_to_its_draws(result_of: Result) -> None:
+    with result_of("tolerance") as result:
+        row = result.sizes["member"] // 16
+        some = result.sel(member=result.member != 1)  # as where B of the first row failed
+        ax = plot.quantiles(some, "peak_normal_force")
+        page = columns(some)
+        alone = plot.quantiles(result.sel(member=[2, row - 1]), "peak_normal_force")
+    assert ax.get_ylabel() == "share of the 31 draws that ran [%]"
+    assert ax.lines[0].get_xdata().size == 31
+    assert {one.count for one in page if one.name == "peak_normal_force"} == {31}
+    assert alone.get_ylabel() == "share of the 2 members that ran [%]"
 
 
 def test_failed_members_are_in_the_one_denominator() -> None:

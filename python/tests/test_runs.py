@@ -380,6 +380,14 @@ def test_exponent_of_the_logistic_map_is_ln_2(tmp_path: Path) -> None:
     assert found.fit == (0, 5)
 
 
+def test_statistics_of_a_table_are_of_the_column_that_is_named(tmp_path: Path) -> None:
+    time = 0.01 * np.arange(2000)
+    table = tmp_path / "two.csv"
+    np.savetxt(table, np.c_[time, np.sin(time), np.sin(3 * time)], delimiter=",", header="t,x,y", comments="")
+    periods = [slideway.stats(table, *column).text["average period"][:4] for column in (["x"], ["y"], [])]
+    assert periods == ["6.28", "2.09", "2.09"]
+
+
 def test_information_is_what_the_program_prints(result_of: Result, program: str) -> None:
     result = result_of("ensemble")
     assert "64" in slideway.info(result)

@@ -10,7 +10,11 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from slideway.report.facts import of_scene
+from slideway.report.poses import poses
+from slideway.scenes import varied
 from slideway.toml_writer import to_toml
+from slideway.way import may_be_misaligned
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -57,6 +61,51 @@ def test_sweep_sets_both_clearances(result_of: Result) -> None:
 def test_member_that_is_not_there_has_no_scene(result_of: Result) -> None:
     with pytest.raises(slideway.SlidewayError, match="no member 64"):
         slideway.scene(result_of("ensemble"), member=64)
+
+
+INPUTS = {"mechanism.crank_speed": [3.0, 6.0], "joint.clearance": [1e-4, 5e-4], "joint.slider_length": [0.04, 0.08], "way.offset_y": [0.0, 1e-4]}
+SERIES: dict[str, Any] = {
+    "schema": 1, "mechanism": {"crank_speed": 3}, "contact": {"law": "conservative"},
+    "study": {"duration": "20 ms", "samples": 21, "quantities": ["x", "y", "z", "roll", "yaw", "pitch"]},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=["table", "inputs"])
+def own(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    """Two members whose values no scene holds: rows of a table, or given inputs."""
+    if request.param == "inputs":
+        return slideway.Ensemble(SERIES).run(INPUTS)
+    table = tmp_path_factory.mktemp("table") / "members.csv"
+    table.write_text("\n".join([",".join(INPUTS), *(",".join(map(repr, row)) for row in zip(*INPUTS.values(), strict=True))]))
+    return slideway.run(SERIES, study__design="table", study__table=str(table), progress=False)
+
+
+def test_members_of_a_table_have_their_own_scene(own: xr.Dataset) -> None:
+    assert set(varied(own)) == set(INPUTS)
+    scene = slideway.scene(own, member=1, derived=True)
+    assert scene["joint"]["clearance_y"] == scene["joint"]["clearance_z"] == 5e-4
+    assert scene["mechanism"]["crank_speed"] == 6
+    assert scene["mechanism"]["slider_mass"] == pytest.approx(7800 * 0.08 * 0.02 * 0.03)
+    assert slideway.scene(own.sel(member=0), 0, derived=True)["mechanism"]["slider_mass"] == pytest.approx(7800 * 0.04 * 0.02 * 0.03)
+
+
+def test_members_of_a_table_are_drawn_by_their_own_scene(own: xr.Dataset) -> None:
+    plot = slideway.plot.time_series
+    assert np.abs(plot(own, "x", 1, difference=True).lines[0].get_ydata()).max() < 500  # um; by the other's speed it were millimetres
+    assert {line.get_ydata()[0] for line in plot(own, "y", 1).lines if line.get_linestyle() == ":"} == {500.0, -500.0}
+    assert not any(line.get_linestyle() == ":" for line in plot(own, "y").lines)
+    assert may_be_misaligned(own)
+    shown = poses(own, 1)
+    assert (shown.joint.gap_y, shown.joint.length, shown.y[0]) == (5e-4, 0.08, pytest.approx(own.y.values[1, 0] - 1e-4))
+    assert ("varies: joint.clearance", "2 values from 100 µm to 500 µm") in of_scene(own, 2)
+
+
+def test_scene_of_a_member_of_given_inputs_runs_again() -> None:
+    own = slideway.Ensemble(SERIES).run(INPUTS)
+    again = slideway.run(slideway.scene(own, member=1), progress=False)
+    np.testing.assert_array_equal(again.y.values, own.y.values[1:])
+    with pytest.raises(slideway.SceneError, match=r"^study.table is \"\": no scene holds rows .* slideway.scene\(result, member=K\)"):
+        slideway.run(slideway.scene(own), progress=False)
 
 
 def test_dataset_without_scene_says_so() -> None:

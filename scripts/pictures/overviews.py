@@ -84,7 +84,7 @@ def report(root: Path) -> bytes:
     return small.getvalue()
 
 
-_floors = (  # docs/explanation/architecture.md, from above
+_floors = (  # ARCHITECTURE.md, from above
     ("commands", "parse, call, print", 0), ("library, Python module", "in memory", 0), ("study", "what to run, what to conclude", 0),
     ("store", "shards, results, merge", 0), ("run", "blocks over threads and ranks", 0), ("chaos, statistics", "plain numbers", 0),
     ("config, sampling, base", "keys, scenes, designs, files", 0), ("backend", "kernels per instruction set, GPUs", 0),

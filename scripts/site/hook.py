@@ -16,6 +16,9 @@ _pages = {
     "pages.md": "docs/README.md",
     "benchmarks.md": "bench/results/README.md",
     "contributing.md": "CONTRIBUTING.md",
+    "architecture.md": "ARCHITECTURE.md",
+    "releasing.md": "RELEASING.md",
+    "testing.md": "tests/README.md",
     "python_reference.md": "scripts/site/python_reference.md",
 }
 _link = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")

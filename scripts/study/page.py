@@ -179,8 +179,8 @@ def page(root: Path, found: Found) -> str:
 `scripts/study.sh` runs the studies and writes this page; a test holds them against closed forms.
 
 ## Which fit for the crosshead of a pump?
-A crosshead guides the rod of a pump. A crank of 30 mm drives this one, 25 mm high, at 600 rpm against the pressure that an indicator has recorded over a turn
-(`scenes/crosshead.toml`): 29 bar on a plunger of 25 mm, {hydraulic_work:.0f} J of hydraulic work. Per turn it may lose {100 * pump.friction_limit / hydraulic_work:.0f} % of that to friction ({pump.friction_limit:.2f} J)
+A crank of 30 mm drives a crosshead, 25 mm high, at 600 rpm against the pressure that an indicator has recorded over a turn (`scenes/crosshead.toml`): 29 bar
+on a plunger of 25 mm, {hydraulic_work:.0f} J of hydraulic work. Per turn it may lose {100 * pump.friction_limit / hydraulic_work:.0f} % of that to friction ({pump.friction_limit:.2f} J)
 and a ten thousandth in impacts ({1e3 * pump.impact_limit:.1f} mJ; above it the pump is heard).
 The limits of the fit (ISO 286-1, 18 to 30 mm) are three standard deviations of the clearance. Friction is 0.08 with a standard deviation of 0.01, restitution
 0.4 to 0.7; speed scatters by 1 %, pressure by 2 %.
@@ -192,26 +192,25 @@ steel corners of 0.5 mm radius with the same restitution. Brackets are 95 % inte
 |---|---|---|---|---|---|---|---|
 {fits_table(rigid, compliant)}
 
-![Distributions of the energy lost in impacts for four fits, with rigid and compliant contacts, and the limit](../pictures/study.svg)
+![Energy lost in impacts for four fits, rigid and compliant, and the limit](../pictures/study.svg)
 
 The cost per good part is that of making all ({", ".join(f"{fit.name} {fit.cost:g}" for fit in fits)}) plus {rejected_cost:g} for each that fails its test, divided by the
-number of good ones. These prices are assumptions (`scripts/study/runs.py`, `page.py`). With them **{best.name}** is
+number of good ones. With these prices, which are assumptions, **{best.name}** is
 the cheapest, with any impact limit from {1e3 * least:.1f} to {1e3 * most:.1f} mJ.
 
-- Impacts take energy that grows with the clearance to the power {growth:.2f} (a steadily rising side force: 4/3). Friction takes μ ∫ |N| dx, N being the side
-  force without clearance: the fit does not matter to it.
+- Impacts take energy that grows with the clearance to the power {growth:.2f} (a steadily rising side force: 4/3). To friction, μ ∫ |N| dx, the fit does not matter.
 - Rigid and compliant contacts agree on the mean energy of impacts within {100 * apart:.0f} %, the rigid ones with {fewer:.0f} times fewer right-hand sides.
-- The side force, {side:.0f} N at most, is the peak force in a tight fit. In {fits[3].name} impacts exceed it, and by how much the stiffness of the corners decides.
+- The side force, {side:.0f} N at most, is the peak force in a tight fit. In {fits[3].name} impacts exceed it, by how much depends on the stiffness of the corners.
 
 ### What the pressure changes
 | | crosshead alone | with the pressure |
 |---|---|---|
 {before_table(root, found)}
 
-A study without the load sets other limits and ends with another fit: of {sum(out.impacts.size for out in rigid):,} pumps {former} would keep those of the crosshead alone.
+Without the load the study ends with another fit: of {sum(out.impacts.size for out in rigid):,} pumps {former} would keep its limits.
 
 ### Which tolerance to tighten
-Total Sobol indices for {loosest.name} (the share of the variance that would remain if all other inputs were known), what meets both limits when the scatter of
+Total Sobol indices for {loosest.name}, what meets both limits when the scatter of
 one input is halved (± {100 * half_width(found.tightened):.1f} points at most), and what halving may cost per crosshead in {middle.name} before it does not pay.
 
 | input | share of impact losses | of friction losses | {loosest.name}, halved | {middle.name}, halved | worth |
@@ -231,9 +230,9 @@ Wedged members lose more than five times the median in impacts, or fail.
 |---|---|---|---|---|
 {space_table(root, found)}
 
-![Side force and wear over the slider's way; lean of the slider over a turn for three depths](../pictures/study_worn.svg)
+![Side force and wear over the way; lean over a turn for three depths](../pictures/study_worn.svg)
 
-- Misalignment costs nothing until some sliders do not fit. Friction ({quantile(rigid[2].friction, 0.5):.3f} J) feels neither it nor wear.
+- Misalignment costs nothing until some sliders do not fit; friction ({quantile(rigid[2].friction, 0.5):.3f} J) feels neither it nor wear.
 - The worn way's slider leans, which the plunger's seal has to bear; with {deepest.value:g} µm impacts take {np.median(deepest.impacts) / np.median(new.impacts):.1f} times as much as on a new way.
 - Peak forces are largest between flat new faces, which meet all at once: they tell stiffness, not health.
 
@@ -245,23 +244,23 @@ at most a tenth of the speed in 99 % of {enough.before.size} presses? The closed
 |---|---|---|---|---|---|
 {press_table(root, found.presses)}
 
-**{enough.inertia:g} kg m²** are enough. The heavier wheel takes the peaks off the motor, hardly its heat.
+**{enough.inertia:g} kg m²** are enough. A heavier wheel takes the peaks off the motor, hardly its heat.
 
 ## How tall a tool?
 The carriage of [jobs](../how_to/jobs.md#carriage-on-a-measured-profile), 40 mm long, carries a mass above the way; its weight must hold both ends
-down as it speeds up and brakes. The profile has 17 measured rows, and the acceleration depends on what stands between them:
+down. The acceleration depends on what stands between the 17 measured rows of the profile:
 
 | `interpolation` | peak acceleration, m/s² | an end lifts above, mm, by moments | in the runs, in steps of 5 mm |
 |---|---|---|---|
 {carriage_table(root, found.carriages)}
 
-![Speed drop of the press over its flywheel, and lean of the carriage over its height, with what the closed forms say](../pictures/study_machines.svg)
+![Speed drop of the press over its flywheel, lean of the carriage over its height](../pictures/study_machines.svg)
 
 The interpolation moves the answer by {100 * (max(heights) / min(heights) - 1):.0f} %. Measure faster where the speed changes, or stay below the least.
 
 ## How far to trust it
 Of {sum(out.members for out in everyone):,} planar members {sum(out.failed for out in everyone)} failed. Some members of each kind (rigid, compliant, in space, worn by 40 µm) ran again with tolerances a hundred times
 tighter, half of these by another method: of losses and peak forces {trust(found.verdicts)}. Intervals are of sampling alone. Restitution and friction
-of such a joint are guesses until they are measured. Rigid and compliant corners are different models:
-[where they agree](../how_to/rigid.md#agreement-with-stiff-compliant-contacts).
+of such a joint are guesses until they are measured; rigid and compliant corners are
+[different models](../how_to/rigid.md#agreement-with-stiff-compliant-contacts).
 """

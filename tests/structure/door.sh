@@ -15,7 +15,7 @@ fault() {
 pages=("$@")
 if (($# == 0)); then
     templates=(.github/ISSUE_TEMPLATE/{bug,question,wrong_number}.yml .github/pull_request_template.md)
-    pages=(CONTRIBUTING.md SECURITY.md docs/reference/testing.md "${templates[@]}" .github/workflows/ci.yml .readthedocs.yaml)
+    pages=(CONTRIBUTING.md SECURITY.md ARCHITECTURE.md RELEASING.md tests/README.md "${templates[@]}" .github/workflows/ci.yml .readthedocs.yaml)
     for file in "${pages[@]}" .pre-commit-config.yaml CITATION.cff; do
         [[ -s $file ]] || fault "there is no $file"
     done

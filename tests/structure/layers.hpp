@@ -1,4 +1,4 @@
-// The order of the layers and what a layer may know, as rules over a file's text.  docs/explanation/architecture.md draws them.
+// The order of the layers and what a layer may know, as rules over a file's text.  ARCHITECTURE.md draws them.
 #pragma once
 
 #include <string>

@@ -120,7 +120,7 @@ verify = 0
     }
 }
 
-// λ₁ = 72 1/s (docs/explanation/chaos.md): 48 in five turns, 3 in three tenths of one.
+// λ₁ = 72 1/s (docs/evidence/chaos.md): 48 in five turns, 3 in three tenths of one.
 TEST_F(ExponentSigns, OfChaosAreToldOnceTheRecordIsLongEnough) {
     std::string const scene = std::string(SLIDEWAY_SCENES) + "/lyapunov_rigid.toml";
     std::vector<std::string> keys{"study.verify=0", "study.members=8", "study.revolutions=5"};

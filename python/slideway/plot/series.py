@@ -10,7 +10,7 @@ from ..errors import SlidewayError
 from ..ideal import ideal
 from ..palette import grey
 from ..sampling import coarse_words, sample_axis, too_coarse
-from ..scenes import scene
+from ..scenes import scene, varied
 from ..signals import running_integral
 from ..way import across, mean_clearance, may_be_misaligned
 from .style import Members, axis, chosen, draw_members, failures, finish, label, of_result, scaled, series_of, words_of
@@ -107,7 +107,7 @@ def _clearance(result: xr.Dataset, members: list[int], name: str) -> float | Non
     """Half the play of y or z [m], where all members share it."""
     if name not in ("y", "z"):
         return None
-    if len(members) > 1 and any(key.startswith("joint.") for key in scene(result).get("study", {}).get("vary", {})):
+    if len(members) > 1 and any(key.startswith("joint.") for key in varied(result)):
         return None
     first, last = (mean_clearance(scene(result, m).get("joint", {}), name) for m in (members[0], members[-1]))
     return first if first == last else None

@@ -38,13 +38,27 @@ class Balance:
 
     residual: float
     largest: float  # magnitude of any member's residual
-    work: float
+    work: float  # of the drive
+    loads: float  # their work; 0 where the scene has none, as what follows of what it has not
+    ground: float  # work of its motion
     friction: float
-    damping: float
+    damping: float  # of contacts
+    dampers: float  # what those of springs and stops take
+    film: float  # what the oil takes
     change: float  # of the mechanical energy, E(t) - E(0)
     duration: float  # of a member [s]
     reference: float = math.nan  # an energy of the mechanism itself, which none of the above has to reach
     reference_name: str = ""
+
+    @property
+    def gained(self) -> float:
+        """What all works and the residual have put in."""
+        return self.work + self.loads + self.ground + self.residual
+
+    @property
+    def lost(self) -> float:
+        """What friction and everything that damps took."""
+        return self.friction + self.damping + self.dampers + self.film
 
     @property
     def scale_named(self) -> tuple[float, str]:
@@ -54,7 +68,9 @@ class Balance:
         """
         sizes = (
             (abs(self.work), "the drive's work"),
-            (self.friction + self.damping, "what friction and damping took"),
+            (abs(self.loads), "the loads' work"),
+            (abs(self.ground), "the work of the ground's motion"),
+            (self.lost, "what friction and damping took"),
             (self.damping, "what damping took"),
             (abs(self.change), "the change of the mechanical energy"),
             (self.reference, self.reference_name),
@@ -65,7 +81,7 @@ class Balance:
     @property
     def complete(self) -> bool:
         """Whether a term is there that would be large if the mechanism turned over much more than its reference energy."""
-        return abs(self.work) > 0 or any(map(math.isfinite, (self.friction + self.damping, self.change)))
+        return any(abs(work) > 0 for work in (self.work, self.loads, self.ground)) or any(map(math.isfinite, (self.lost, self.change)))
 
     @property
     def scale(self) -> float:
@@ -83,19 +99,22 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
     residual = column(every, "energy_residual")
     if residual is None or residual.count == 0:
         return None
-    terms = (column(every, name) for name in ("drive_work", "friction_loss", "damping_loss", "energy_change"))
-    work, friction, damping, change = (one.mean if one else math.nan for one in terms)
-    # What dampers and oil take is lost as what contacts damp is.
-    damping += sum(one.mean for name in ("spring_loss", "film_loss") if (one := column(every, name)))
     scene = slideway.scene(result)
-    if scene["mechanism"]["kind"] == "free_slider" or drive_kind(scene) == "free":
-        work = 0.0
+
+    def mean(name: str, is_there: bool = True) -> float:
+        one = column(every, name)
+        return (one.mean if one else math.nan) if is_there else 0.0
+
+    work = mean("drive_work", scene["mechanism"]["kind"] != "free_slider" and drive_kind(scene) != "free")
+    works = work, mean("load_work", "load" in scene), mean("ground_work", "ground_motion" in scene)
+    losses = mean("spring_loss", "spring" in scene or "stop" in scene), mean("film_loss", "film" in scene)
     if "status" in result:
         duration = float(result["end_time"].values[slideway.finished(result).values].mean())
     else:
         duration = float(scene["study"].get("duration", math.nan))
     largest = max(abs(residual.low), abs(residual.high))
-    return Balance(residual.mean, largest, work, friction, damping, change, duration, *_reference(result))
+    damped = mean("friction_loss"), mean("damping_loss"), *losses
+    return Balance(residual.mean, largest, *works, *damped, mean("energy_change"), duration, *_reference(result))
 
 
 def _reference(result: xr.Dataset) -> tuple[float, str]:

@@ -10,6 +10,7 @@ import xarray as xr
 
 import slideway
 from slideway.ideal import drive_kind
+from slideway.scenes import varied
 from slideway.way import mean_clearance
 
 from .numbers import amount, counted, number
@@ -38,7 +39,7 @@ def of_scene(result: xr.Dataset, members: int) -> Facts:
     facts = [
         ("study", STUDIES.get(str(study.get("kind")), str(study.get("kind")))),
         ("mechanism", str(result.attrs.get("mechanism_meaning", kind)) + _speed(scene)),
-        ("clearance per side", "" if str(study.get("parameter")).startswith("joint.clearance") else _clearance(joint)),
+        ("clearance per side", "" if any(key.startswith("joint.clearance") for key in varied(result)) else _clearance(joint)),
         ("contact law", _law(result, scene.get("contact", {}))),
         ("friction", _friction(scene.get("friction", {}))),
         ("members", counted(members, "member") + _design(study)),
@@ -49,6 +50,7 @@ def of_scene(result: xr.Dataset, members: int) -> Facts:
         facts.append((f"sweeps: {study['parameter']}", _sweep(result, str(study["parameter"]))))
     vary = study.get("vary", {})
     facts += [(f"varies: {key}", _distribution(form, _unit(result, key))) for key, form in vary.items()]
+    facts += [(f"varies: {key}", _sweep(result, key)) for key in varied(result) if key not in (*vary, study.get("parameter"))]
     facts += [(f"limit: {key}", _limit(form)) for key, form in study.get("limits", {}).items()]
     return [(name, words) for name, words in facts if words]
 

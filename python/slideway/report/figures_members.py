@@ -82,14 +82,18 @@ def mode_shares(every: list[Column]) -> Figure | None:
 
 def energy_balance(terms: Balance, whose: str) -> Figure | None:
     """Where energy came from and where it went; None where the file lacks a term."""
-    if not all(math.isfinite(term) for term in (terms.work, terms.friction, terms.damping)):
+    kept = terms.gained - terms.lost
+    if not math.isfinite(kept):
         return None
-    kept = terms.work + terms.residual - terms.friction - terms.damping
     parts = [
         ("drive", terms.work, "@c1", "came from"),
+        ("loads", terms.loads, "@c1/0.6", "came from"),
+        ("ground's motion", terms.ground, "@c1/0.35", "came from"),
         ("made by law and method", terms.residual, "@bad", "came from"),
         ("friction", terms.friction, "@c2", "went to"),
         ("contact damping", terms.damping, "@c3", "went to"),
+        ("dampers of springs and stops", terms.dampers, "@c3/0.6", "went to"),
+        ("oil film", terms.film, "@c3/0.35", "went to"),
         ("motion, height, springs", kept, "@c4", "went to"),
     ]
     data = []

@@ -17,8 +17,8 @@ from .traces import Figure
 
 TEXT = 9  # a column beyond the last: no column of the table holds numbers
 RESIDUAL = (
-    "The residual is E(t) − E(0) − W + D_f + D_d: mechanical energy gained, less the drive's work W, plus what friction and contact "
-    "damping took. It is zero for exact physics and exact integration."
+    "The residual is E(t) − E(0) − W − W_l − W_g + D_f + D_d + D_s + D_o: mechanical energy gained, less the works of drive, loads and the "
+    "ground's motion, plus what friction, contact damping, dampers and oil film took. It is zero for exact physics and exact integration."
 )
 
 

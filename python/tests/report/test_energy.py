@@ -8,6 +8,9 @@ import pytest
 import xarray as xr
 from slideway.report import energy
 from slideway.report.columns import Column
+from slideway.report.figures_members import energy_balance
+
+from .conftest import unpacked
 
 
 def scene(law: str | None, kind: str = "slider_crank", more: str = "", **attributes: object) -> xr.Dataset:
@@ -83,6 +86,36 @@ def test_a_law_is_called_by_its_name_and_judged_by_what_the_program_says_of_it()
 def test_losses_stand_in_for_work_that_is_not_stored() -> None:
     found = of("paper", 0.01, friction_loss=0.015, damping_loss=0.005)
     assert found.headline == "The contact law made 50 % of what friction and damping took"
+
+
+TERMS = {"energy_residual": 1e-6, "load_work": 3.0, "ground_work": 2.0, "friction_loss": 0.5, "damping_loss": 0.25, "spring_loss": 0.125, "film_loss": 1.0}
+
+
+def balance_of(without: str = "", sections: str = "load ground_motion stop film") -> energy.Balance:
+    result = scene("conservative", "free_slider", "\n".join(f"[{name}]" for name in sections.split()))
+    terms = energy.balance(result, [quantity(name, mean) for name, mean in TERMS.items() if name != without])
+    assert terms is not None
+    return terms
+
+
+def test_the_balance_has_every_term_of_the_audit() -> None:
+    figure = energy_balance(balance_of(), "the members")
+    assert figure is not None
+    bars = {bar["name"]: (bar["y"][0], unpacked(bar["x"])[0]) for bar in figure.variants[0].data}
+    assert bars["motion, height, springs"] == ("went to", pytest.approx(3125.001))  # E(t) - E(0) [mJ]
+    sums = {side: sum(size for where, size in bars.values() if where == side) for side in ("came from", "went to")}
+    assert sums["came from"] == pytest.approx(sums["went to"]) == pytest.approx(5000.001)
+    assert balance_of().scale_named == (3.0, "the loads' work")
+
+
+@pytest.mark.parametrize("name", list(TERMS)[1:])
+def test_the_balance_is_not_drawn_without_a_term_that_the_scene_has(name: str) -> None:
+    assert energy_balance(balance_of(without=name), "the members") is None
+
+
+def test_terms_that_the_scene_has_not_are_zero() -> None:
+    terms = balance_of(without="load_work", sections="ground_motion spring film")
+    assert (terms.loads, terms.work, energy_balance(terms, "") is None) == (0.0, 0.0, False)
 
 
 def test_without_any_scale_nothing_is_judged() -> None:
