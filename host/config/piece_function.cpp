@@ -200,10 +200,16 @@ double PieceFunction::steepest() const {
     return most;
 }
 
+double PieceFunction::least() const {
+    double least = pieces_.front().value;
+    look_at_pieces([&](double place) { least = std::min(least, value(place)); });
+    return least;
+}
+
 double PieceFunction::range() const {
-    double low = pieces_.front().value, high = low;
-    look_at_pieces([&](double place) { low = std::min(low, value(place)), high = std::max(high, value(place)); });
-    return high - low;
+    double high = pieces_.front().value;
+    look_at_pieces([&](double place) { high = std::max(high, value(place)); });
+    return high - least();
 }
 
 PieceTable PieceFunction::table() const {

@@ -46,8 +46,9 @@ public:
     PieceFunction longer_by(double share) const;
     double value(double place) const;
     double slope(double place) const;
-    /// The largest magnitude of its slope, looked for at some places of each piece; and how far its values are apart there.
+    /// The largest magnitude of its slope, looked for at some places of each piece; its least value there, and how far its values are apart.
     double steepest() const;
+    double least() const;
     double range() const;
 
     /// The first point behind which it has no finite numbers.

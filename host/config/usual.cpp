@@ -36,6 +36,7 @@ constexpr struct {
     {"", "kg", 1e-6, 1e5},
     {"", "kg m2", 0, 1e6},
     {"", "kg/m3", 10, 3e4},
+    {"film.", "Pa", 0, 1e7},
     {"", "Pa", 1e5, 1e13},
     {"contact.point_stiffness", "1", 1e2, 1e16},
     {"contact.eta", "1", 0, 10},

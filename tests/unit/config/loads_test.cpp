@@ -253,6 +253,7 @@ TEST_F(SceneLoadFiles, OfAWaysProfileAreDepthsOfFaces) {
              Bad{hollow, "scale = 100\n", "its faces then have a slope of"},
              Bad{"x, depth\n0, 0\n0.05, 20\n0.1, 0\n", "", "its faces then have a slope of"},
              Bad{"x, depth [um]\n0, 0\n0.05, -1\n0.1, 0\n", "", "p.csv:3: depth is -1e-06 m (a profile lies back"},
+             Bad{"x, depth [um]\n0, 0\n0.06, 0\n0.1, 0\n0.14, 300\n0.2, 300\n", "", "m between its rows (a profile lies back"},
              Bad{"x, depth [kg]\n0, 0\n1, 1\n", "", "its unit is none of m"},
              Bad{"time, depth\n0, 0\n1, 1\n", "", "the table has no column x"},
              Bad{"x, wear\n0, 0\n1, 1\n", "", "the table has no column depth"},
