@@ -81,13 +81,7 @@ def claim(place: str, words: str, findings: Mapping[str, Finding], verdict: Verd
 
 
 def growth(
-    place: str,
-    words: str,
-    labels: Sequence[str],
-    columns: Mapping[str, Sequence[np.ndarray]],
-    unit: str,
-    factor: float = 1.0,
-    floor: float = 0.0,
+    place: str, words: str, labels: Sequence[str], columns: Mapping[str, Sequence[np.ndarray]], unit: str, factor: float = 1.0, floor: float = 0.0
 ) -> Claim:
     """The claim that a quantity grows from case to case.
 
@@ -105,9 +99,7 @@ def growth(
         answer = grows(list(values))
         moving = [share(v > floor, np.isfinite(v)) for v in values]
         if floor > 0 and all(m.high < 0.5 for m in moving):
-            lines.append(
-                f"nothing moves in {100 * min(1 - m.mean for m in moving):.0f} % of the starts at least: below {factor * floor:.2g} {unit}".rstrip()
-            )
+            lines.append(f"nothing moves in {100 * min(1 - m.mean for m in moving):.0f} % of the starts at least: below {factor * floor:.2g} {unit}".rstrip())
             answer = False
         elif np.isfinite(whole.half_width) and whole.base != 0:
             lines.append(f"{labels[0]} → {labels[-1]}: {percent(whole.mean / whole.base, whole.half_width / abs(whole.base))}")

@@ -33,9 +33,7 @@ def section(bench: Bench) -> Section:
         ],
     )
     for window, when in WINDOWS.items():
-        page.claims += [
-            _growth(bench, window, place, f"{words}, {when}.", q, unit, floor) for place, words, q, unit, floor in _kinematics()
-        ]
+        page.claims += [_growth(bench, window, place, f"{words}, {when}.", q, unit, floor) for place, words, q, unit, floor in _kinematics()]
     page.claims += [
         _growth(
             bench,
@@ -55,20 +53,11 @@ def section(bench: Bench) -> Section:
             "m/s²",
             floor=QUIET_ACCELERATION,
         ),
-        _exception(
-            bench,
-            "slider-crank",
-            ("0.15 mm", "0.22 mm", "0.3 mm"),
-            _across,
-            [crank(CLEARANCES[c]) for c in ("0.15 mm", "0.22 mm", "0.3 mm")],
-        ),
+        _exception(bench, "slider-crank", ("0.15 mm", "0.22 mm", "0.3 mm"), _across, [crank(CLEARANCES[c]) for c in ("0.15 mm", "0.22 mm", "0.3 mm")]),
         _exception(bench, "carriage", tuple(CARRIAGE_CLEARANCES), _carriage, list(CARRIAGE_CLEARANCES.values())),
     ]
     page.figures = [
-        draw(
-            "Fig. 12a: velocity across the way, rms, by clearance.",
-            lambda law, ax: _chart(bench, law, ax, {"y": _vy, "z": _vz}, 1e3, "rms velocity [mm/s]"),
-        ),
+        draw("Fig. 12a: velocity across the way, rms, by clearance.", lambda law, ax: _chart(bench, law, ax, {"y": _vy, "z": _vz}, 1e3, "rms velocity [mm/s]")),
         draw(
             "Figs. 12b, 15: acceleration across the way, rms, by clearance.",
             lambda law, ax: _chart(bench, law, ax, {"y": _ay, "z": _az}, 1, "rms acceleration [m/s²]"),
@@ -78,9 +67,7 @@ def section(bench: Bench) -> Section:
             lambda law, ax: _rod_chart(bench, law, ax),
         ),
     ]
-    page.tables = [
-        bench.audit("crank", [(c, crank(v)) for c, v in CLEARANCES.items()], window, bench.scale.revolutions) for window in WINDOWS
-    ]
+    page.tables = [bench.audit("crank", [(c, crank(v)) for c, v in CLEARANCES.items()], window, bench.scale.revolutions) for window in WINDOWS]
     return page
 
 
@@ -94,9 +81,7 @@ def _kinematics() -> list[tuple[str, str, Quantity, str, float]]:
     ]
 
 
-def _growth(
-    bench: Bench, window: str, place: str, words: str, quantity: Quantity, unit: str, floor: float, cases: dict[str, float] = MAPS
-) -> Claim:
+def _growth(bench: Bench, window: str, place: str, words: str, quantity: Quantity, unit: str, floor: float, cases: dict[str, float] = MAPS) -> Claim:
     columns = {law: [quantity(bench, crank(c), window, law) for c in cases.values()] for law in LAWS}
     return growth(place, words, list(cases), columns, unit, 1e3 if unit == "mm/s" else 1.0, floor)
 
@@ -148,13 +133,7 @@ def _rod(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
 def _chart(bench: Bench, law: str, ax: Axes, quantities: dict[str, Quantity], factor: float, words: str) -> None:
     for (axis_name, quantity), colour in zip(quantities.items(), colours):
         for (window, when), style in zip(WINDOWS.items(), ("--", "-")):
-            _errors(
-                ax,
-                [factor * quantity(bench, crank(c), window, law) for c in CLEARANCES.values()],
-                colour,
-                style,
-                f"{axis_name}, {when}",
-            )
+            _errors(ax, [factor * quantity(bench, crank(c), window, law) for c in CLEARANCES.values()], colour, style, f"{axis_name}, {when}")
     _finish(ax, words)
 
 

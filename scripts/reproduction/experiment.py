@@ -29,7 +29,7 @@ def section(bench: Bench) -> Section:
         [
             "A carriage moved to and fro at constant speed, its accelerations felt by two sensors. The paper's curves come from a real rig; "
             "here are the model's, so that what is judged is whether the model makes what the rig showed. Of case 2 against case 1 the paper's "
-            "sentence says greater, though its clearance is smaller, while section 4.6 has acceleration grow with clearance: both cannot be true of it.",
+            "sentence says greater, though its clearance is smaller, while section 4.6 has acceleration grow with clearance: both cannot be true of it."
         ],
     )
     for case, change in COMPARED.items():
@@ -51,14 +51,8 @@ def section(bench: Bench) -> Section:
     page.claims.append(_lift_offs(bench))
     page.claims.append(_channels(bench))
     page.figures = [
-        draw(
-            "Fig. 3: acceleration on channel 1, case 1, one start, 0.1 s of the second cycle.",
-            lambda law, ax: _time(bench, law, ax),
-        ),
-        draw(
-            "Fig. 4: cumulative area ∫|a| dt of channel 1 over a cycle, mean of the starts.",
-            lambda law, ax: _area(bench, law, ax),
-        ),
+        draw("Fig. 3: acceleration on channel 1, case 1, one start, 0.1 s of the second cycle.", lambda law, ax: _time(bench, law, ax)),
+        draw("Fig. 4: cumulative area ∫|a| dt of channel 1 over a cycle, mean of the starts.", lambda law, ax: _area(bench, law, ax)),
         draw("Fig. 5: spectra of both channels, case 1 (Hann window, rms of the starts).", lambda law, ax: _spectra(bench, law, ax)),
     ]
     page.tables = [_numbers(bench), bench.audit("carriage", list(CASES.items()), "settled", bench.scale.carriage_revolutions)]
@@ -92,11 +86,7 @@ def _lift_offs(bench: Bench) -> Claim:
             (f"{said(count, 'landings a cycle')}", f"in flight {said(estimate(free), '% of the time', 100)}"),
             True if count.low > 1 else False if count.high < 1 else None,
         )
-    return claim(
-        "Fig. 3a",
-        "In the steady state the slider keeps colliding with its way: it leaves it and lands at least once a cycle.",
-        findings,
-    )
+    return claim("Fig. 3a", "In the steady state the slider keeps colliding with its way: it leaves it and lands at least once a cycle.", findings)
 
 
 def _channels(bench: Bench) -> Claim:

@@ -34,10 +34,7 @@ def section(bench: Bench) -> Section:
     series = {law: _series(bench, law) for law in LAWS}
     page.claims = [_by_neighbours(bench, c) for c in MAPS.values()] + [_by_series(series), _by_line(series)] + _embedding(series)
     page.figures = [
-        draw(
-            "How the exponent settles, 0.1 mm; linear within ±0.1 1/s, logarithmic beyond.",
-            lambda law, ax: _history(bench, law, ax),
-        ),
+        draw("How the exponent settles, 0.1 mm; linear within ±0.1 1/s, logarithmic beyond.", lambda law, ax: _history(bench, law, ax)),
         draw(
             "Fig. 19: mean ln distance of neighbours of x(t), each start; the line is fitted to the first 80 samples.",
             lambda law, ax: _divergence(series[law], ax),
@@ -54,9 +51,7 @@ def section(bench: Bench) -> Section:
     revolutions = bench.scale.exponent_transient + bench.scale.exponent_revolutions
     page.tables = [
         Table(
-            "Largest exponent by neighbours, the second half of the record.",
-            ["clearance", *(f"{LAW_WORDS[law]}: {w}" for law in LAWS for w in columns)],
-            rows,
+            "Largest exponent by neighbours, the second half of the record.", ["clearance", *(f"{LAW_WORDS[law]}: {w}" for law in LAWS for w in columns)], rows
         ),
         bench.audit("exponent", [(w, crank(c)) for w, c in MAPS.items()], "settled", revolutions),
     ]
@@ -81,9 +76,7 @@ def _by_neighbours(bench: Bench, clearance: float) -> Claim:
         )
         findings[law] = Finding(lines, True if positive.low > 0.5 else False if positive.high < 0.5 else None)
     return claim(
-        "Fig. 19",
-        f"The largest exponent is positive, the motion chaotic, at {clearance:g} mm: neighbours that follow the equations, most starts.",
-        findings,
+        "Fig. 19", f"The largest exponent is positive, the motion chaotic, at {clearance:g} mm: neighbours that follow the equations, most starts.", findings
     )
 
 
@@ -160,10 +153,7 @@ def _embedding(series: dict[str, Series]) -> list[Claim]:
     rows.append(
         (
             "t_w = 80 samples, ten delays",
-            {
-                law: Finding((f"{said(estimate(window[law]), 'samples')}", f"{said(estimate(window[law] / delay[law]), 'delays')}"), None)
-                for law in LAWS
-            },
+            {law: Finding((f"{said(estimate(window[law]), 'samples')}", f"{said(estimate(window[law] / delay[law]), 'delays')}"), None) for law in LAWS},
             untold,
         )
     )
@@ -187,14 +177,8 @@ def _embedding(series: dict[str, Series]) -> list[Claim]:
     rows.append(
         (
             "P = 0.2147, the average period by FFT (no unit)",
-            {
-                law: Finding((f"{said(estimate(period[law]), 's')}", f"{said(estimate(period[law] / PERIOD), 'revolutions')}"), None)
-                for law in LAWS
-            },
-            Verdict(
-                "cannot be told: P has no unit; in seconds it is a tenth of a revolution, which is not the period of x(t)",
-                UNTOLD.kind,
-            ),
+            {law: Finding((f"{said(estimate(period[law]), 's')}", f"{said(estimate(period[law] / PERIOD), 'revolutions')}"), None) for law in LAWS},
+            Verdict("cannot be told: P has no unit; in seconds it is a tenth of a revolution, which is not the period of x(t)", UNTOLD.kind),
         )
     )
     return [claim("Eq. (19)", f"{words}.", findings, verdict) for words, findings, verdict in rows]
@@ -236,14 +220,7 @@ def _divergence(series: Series, ax: Axes) -> None:
     for number, (_, line) in enumerate(series):
         if line is None:
             continue
-        ax.plot(
-            line.time,
-            line.mean_log_distance,
-            color=colours[0],
-            lw=0.8,
-            alpha=0.7,
-            label="neighbours, each start" if number == 0 else None,
-        )
+        ax.plot(line.time, line.mean_log_distance, color=colours[0], lw=0.8, alpha=0.7, label="neighbours, each start" if number == 0 else None)
         if line.exponent is not None and line.fit is not None:
             time, values = line.time[line.fit[0] : line.fit[1] + 1], line.mean_log_distance[line.fit[0] : line.fit[1] + 1]
             ax.plot(

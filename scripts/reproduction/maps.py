@@ -25,7 +25,7 @@ def section(bench: Bench) -> Section:
         "Fig. 17: the map of (x, vx)",
         [
             "x and vx follow from the states across the way, for the rod is rigid: at crank angle 0 x = r + √(L² − y² − z²), so that x is of second order in the "
-            "clearance (micrometres and less), and vx of first order. The paper does not say at which angle its map is taken.",
+            "clearance (micrometres and less), and vx of first order. The paper does not say at which angle its map is taken."
         ],
     )
     page.claims = [_scattered(bench)]
@@ -121,11 +121,7 @@ def _scattered(bench: Bench) -> Claim:
         lines = tuple(f"{w}: {said(t, '')}" for w, t in zip(MAPS, taken, strict=True))
         answer = True if all(t.low > 0.01 for t in taken) else False if all(t.high < 0.01 for t in taken) else None
         findings[law] = Finding(lines, answer)
-    return claim(
-        "Fig. 17",
-        "The map is scattered: the motion does not repeat (sd of vx above a hundredth of c r ω/L, what the clearance allows).",
-        findings,
-    )
+    return claim("Fig. 17", "The map is scattered: the motion does not repeat (sd of vx above a hundredth of c r ω/L, what the clearance allows).", findings)
 
 
 def _dimension(bench: Bench) -> Claim:
@@ -133,9 +129,7 @@ def _dimension(bench: Bench) -> Claim:
     for law in LAWS:
         slopes = np.array([correlation_dimension(np.stack(p, axis=1)) for p in _points(bench, 0.1, law)])
         taken = estimate(slopes)
-        words = (
-            f"correlation dimension at 0.1 mm: {said(taken, '')}" if law == "paper" else f"of what is left of the spread: {said(taken, '')}"
-        )
+        words = f"correlation dimension at 0.1 mm: {said(taken, '')}" if law == "paper" else f"of what is left of the spread: {said(taken, '')}"
         findings[law] = Finding((words,), None)
     verdict = Verdict("cannot be told from 150 points; 2 would be a plane that is filled without structure", UNTOLD.kind)
     return claim("4.7.1", 'The points have "certain fractal dimension characteristics".', findings, verdict)

@@ -21,7 +21,7 @@ def section(bench: Bench) -> Section:
         "Fig. 11: contact forces by mode",
         [
             "The paper draws columns of force over time, by contact mode. Which force stands at which moment belongs to one orbit; shares of time and forces "
-            "of each mode belong to the mechanism. A moment is counted by its hardest contact: a surface, else a line, else a point.",
+            "of each mode belong to the mechanism. A moment is counted by its hardest contact: a surface, else a line, else a point."
         ],
     )
     forces = {law: _forces(bench, law) for law in LAWS}
@@ -35,9 +35,7 @@ def section(bench: Bench) -> Section:
         row = [mode]
         for law in LAWS:
             row.append(said(estimate(_share(bench, law, mode)), "%", 100))
-            row.append(
-                "0" if mode == "free" else said(estimate(forces[law][mode]), "") if np.isfinite(forces[law][mode]).any() else "at no sample"
-            )
+            row.append("0" if mode == "free" else said(estimate(forces[law][mode]), "") if np.isfinite(forces[law][mode]).any() else "at no sample")
         rows.append(row)
     columns = ("time", "mean force while it lasts [N]")
     page.tables = [
@@ -84,13 +82,7 @@ def _differ(forces: dict[str, dict[str, np.ndarray]]) -> Claim:
         there = [mode for mode in CLASSES if np.isfinite(forces[law][mode]).sum() >= 2]
         lines = tuple(f"{mode}: {said(estimate(forces[law][mode]), 'N')}" for mode in there)
         changes = [difference(forces[law][a], forces[law][b]).change for a, b in zip(there, there[1:])]
-        answer = (
-            True
-            if any(c in (Change.RISES, Change.FALLS) for c in changes)
-            else False
-            if changes and all(c is Change.SAME for c in changes)
-            else None
-        )
+        answer = True if any(c in (Change.RISES, Change.FALLS) for c in changes) else False if changes and all(c is Change.SAME for c in changes) else None
         findings[law] = Finding(lines or ("no contact at any sample",), answer)
     return claim("4.2.3", "The contact force differs between the modes, when settled.", findings)
 

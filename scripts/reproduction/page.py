@@ -42,12 +42,8 @@ def page(sections: Sequence[Section], facts: Sequence[str], failures: Sequence[s
 def _contents(sections: Sequence[Section], claims: Sequence[Claim]) -> str:
     rows = []
     for number, section in enumerate(sections):
-        counts = Counter(
-            (c.verdict.kind, c.verdict.words if c.verdict.kind != "open" else "undecided or not to be told") for c in section.claims
-        )
-        verdicts = "<br>".join(
-            f'<span class="verdict {kind}">{count} × {escape(words)}</span>' for (kind, words), count in counts.most_common()
-        )
+        counts = Counter((c.verdict.kind, c.verdict.words if c.verdict.kind != "open" else "undecided or not to be told") for c in section.claims)
+        verdicts = "<br>".join(f'<span class="verdict {kind}">{count} × {escape(words)}</span>' for (kind, words), count in counts.most_common())
         rows.append(f'<tr><td><a href="#part{number}">{escape(section.title)}</a></td><td>{verdicts or "parameters alone"}</td></tr>')
     return f'<div class="wide"><table><caption>{len(claims)} claims</caption><tbody>{"".join(rows)}</tbody></table></div>'
 

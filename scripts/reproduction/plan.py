@@ -91,21 +91,8 @@ def _cranks(scale: Scale, law: str) -> list[Run]:
         start = name("crank", case, "start", law)
         runs.append(Run(start, scene, {**keys, "study.members": scale.members, "study.vary": starts(clearance)}))
         runs.append(Run(name("crank", case, "settled", law), scene, keys, after=start))
-    dense = {
-        "contact.law": law,
-        "study.revolutions": scale.dense_revolutions,
-        "study.samples_per_revolution": scale.dense_samples,
-        "study.quantities": _DENSE,
-    }
-    runs.append(
-        Run(
-            name("crank", "0.15mm", "dense", law),
-            "slider_crank_0.15mm.toml",
-            dense,
-            name("crank", "0.15mm", "start", law),
-            scale.dense_members,
-        )
-    )
+    dense = {"contact.law": law, "study.revolutions": scale.dense_revolutions, "study.samples_per_revolution": scale.dense_samples, "study.quantities": _DENSE}
+    runs.append(Run(name("crank", "0.15mm", "dense", law), "slider_crank_0.15mm.toml", dense, name("crank", "0.15mm", "start", law), scale.dense_members))
     return runs
 
 
@@ -142,22 +129,12 @@ def _carriages(scale: Scale, law: str) -> list[Run]:
 def _chaos(scale: Scale, law: str) -> list[Run]:
     runs = []
     for clearance in MAPS.values():
-        own = {
-            "contact.law": law,
-            "joint.clearance": f"{clearance:g} mm",
-            "study.quantities": AUDIT,
-            "study.vary": starts(clearance),
-        }
+        own = {"contact.law": law, "joint.clearance": f"{clearance:g} mm", "study.quantities": AUDIT, "study.vary": starts(clearance)}
         runs.append(
             Run(
                 name("map", crank(clearance), "settled", law),
                 "poincare_0.1mm.toml",
-                {
-                    **own,
-                    "study.members": scale.maps,
-                    "study.transient_revolutions": scale.map_transient,
-                    "study.revolutions": scale.map_revolutions,
-                },
+                {**own, "study.members": scale.maps, "study.transient_revolutions": scale.map_transient, "study.revolutions": scale.map_revolutions},
             )
         )
         runs.append(
@@ -179,15 +156,7 @@ def _chaos(scale: Scale, law: str) -> list[Run]:
         "study.samples_per_revolution": scale.series_samples,
         "study.quantities": [*AUDIT, "x"],
     }
-    runs.append(
-        Run(
-            name("series", "0.1mm", "settled", law),
-            "slider_crank_0.1mm.toml",
-            series,
-            name("crank", "0.1mm", "start", law),
-            scale.series,
-        )
-    )
+    runs.append(Run(name("series", "0.1mm", "settled", law), "slider_crank_0.1mm.toml", series, name("crank", "0.1mm", "start", law), scale.series))
     return runs
 
 
@@ -199,8 +168,4 @@ def starts(clearance: float) -> dict[str, Any]:
         ends = (f"{-half:.6g} {unit}", f"{half:.6g} {unit}") if unit else (-half, half)
         return {"dist": "unif", "low": ends[0], "high": ends[1]}
 
-    return {
-        "initial.y": even(place, "mm"),
-        "initial.z": even(place, "mm"),
-        **{f"initial.{axis}": even(tilt) for axis in ("roll", "yaw", "pitch")},
-    }
+    return {"initial.y": even(place, "mm"), "initial.z": even(place, "mm"), **{f"initial.{axis}": even(tilt) for axis in ("roll", "yaw", "pitch")}}

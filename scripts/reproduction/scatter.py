@@ -22,12 +22,7 @@ GAPS = {"0.1mm": 1e-4, "0.5mm": 5e-4, "0.1mm_1.22pi": 1e-4, "0.1mm_2pi": 1e-4}  
 MASS = 7800 * 0.04 * 0.02 * 0.03  # kg, the slider of Table 6
 QUIET_PLACE = 1e-7  # m, a thousandth of 0.1 mm
 QUIET_FORCE = 0.01 * MASS * 9.81  # N, a hundredth of its weight
-ALL = {
-    "0.1 mm, π rad/s": "0.1mm",
-    "0.5 mm, π rad/s": "0.5mm",
-    "0.1 mm, 1.22π rad/s": "0.1mm_1.22pi",
-    "0.1 mm, 2π rad/s": "0.1mm_2pi",
-}
+ALL = {"0.1 mm, π rad/s": "0.1mm", "0.5 mm, π rad/s": "0.5mm", "0.1 mm, 1.22π rad/s": "0.1mm_1.22pi", "0.1 mm, 2π rad/s": "0.1mm_2pi"}
 
 
 def positions(bench: Bench) -> Section:
@@ -36,7 +31,7 @@ def positions(bench: Bench) -> Section:
         "Fig. 13: the slider's place",
         [
             "Larger clearance and higher speed are said to make the slider's place scatter more. Scatter is the standard deviation over time of y "
-            "(vertical) and z (lateral). Of larger clearance that alone says little, for there is more room: the table has it in units of the clearance too. Under the conservative law the highest place of a start is that where it starts.",
+            "(vertical) and z (lateral). Of larger clearance that alone says little, for there is more room: the table has it in units of the clearance too. Under the conservative law the highest place of a start is that where it starts."
         ],
     )
     _add(
@@ -59,18 +54,9 @@ def positions(bench: Bench) -> Section:
     rows = []
     for words, case in ALL.items():
         for window, when in WINDOWS.items():
-            rows.append(
-                [
-                    f"{words}, {when}",
-                    *(said(estimate(_sd(axis)(bench, case, window, law) / GAPS[case]), "") for law in LAWS for axis in ("y", "z")),
-                ]
-            )
+            rows.append([f"{words}, {when}", *(said(estimate(_sd(axis)(bench, case, window, law) / GAPS[case]), "") for law in LAWS for axis in ("y", "z"))])
     page.tables = [
-        Table(
-            "Scatter in units of the clearance per side.",
-            ["case", *(f"{LAW_WORDS[law]}: {axis}" for law in LAWS for axis in ("y", "z"))],
-            rows,
-        ),
+        Table("Scatter in units of the clearance per side.", ["case", *(f"{LAW_WORDS[law]}: {axis}" for law in LAWS for axis in ("y", "z"))], rows),
         _audit(bench),
     ]
     return page
@@ -82,16 +68,13 @@ def forces(bench: Bench) -> Section:
         "Fig. 14: contact forces",
         [
             "Peak force: the largest sum of the normal forces at any step. Fluctuation: the slider's mass times its rms acceleration across the way, an integral over "
-            "all steps, which no sampling can miss. The moments of the paper's peaks (0.4 and 0.75 s) are those of one orbit, and nothing is to be compared there.",
+            "all steps, which no sampling can miss. The moments of the paper's peaks (0.4 and 0.75 s) are those of one orbit, and nothing is to be compared there."
         ],
     )
     _add(
         page,
         bench,
-        [
-            ("Fig. 14{}", "Peak contact force", _peak, "N", 1.0, 0.0),
-            ("Fig. 14{}", "Fluctuation of the contact force", _fluctuation, "N", 1.0, QUIET_FORCE),
-        ],
+        [("Fig. 14{}", "Peak contact force", _peak, "N", 1.0, 0.0), ("Fig. 14{}", "Fluctuation of the contact force", _fluctuation, "N", 1.0, QUIET_FORCE)],
     )
     page.figures = [
         draw(
@@ -123,53 +106,15 @@ def _add(page: Section, bench: Bench, quantities: list[tuple[str, str, Quantity,
     for place, words, quantity, unit, factor, floor in quantities:
         for window, when in WINDOWS.items():
             page.claims.append(
-                _claim(
-                    bench,
-                    place.format("a, b"),
-                    f"{words} grows from 0.1 to 0.5 mm, {when}.",
-                    quantity,
-                    window,
-                    CLEARED,
-                    unit,
-                    factor,
-                    floor,
-                )
+                _claim(bench, place.format("a, b"), f"{words} grows from 0.1 to 0.5 mm, {when}.", quantity, window, CLEARED, unit, factor, floor)
             )
             page.claims.append(
-                _claim(
-                    bench,
-                    place.format("a, c, d"),
-                    f"{words} grows from π over 1.22π to 2π rad/s, {when}.",
-                    quantity,
-                    window,
-                    SPEEDS,
-                    unit,
-                    factor,
-                    floor,
-                )
+                _claim(bench, place.format("a, c, d"), f"{words} grows from π over 1.22π to 2π rad/s, {when}.", quantity, window, SPEEDS, unit, factor, floor)
             )
 
 
-def _claim(
-    bench: Bench,
-    place: str,
-    words: str,
-    quantity: Quantity,
-    window: str,
-    cases: dict[str, str],
-    unit: str,
-    factor: float,
-    floor: float,
-) -> Claim:
-    return growth(
-        place,
-        words,
-        list(cases),
-        {law: [quantity(bench, case, window, law) for case in cases.values()] for law in LAWS},
-        unit,
-        factor,
-        floor,
-    )
+def _claim(bench: Bench, place: str, words: str, quantity: Quantity, window: str, cases: dict[str, str], unit: str, factor: float, floor: float) -> Claim:
+    return growth(place, words, list(cases), {law: [quantity(bench, case, window, law) for case in cases.values()] for law in LAWS}, unit, factor, floor)
 
 
 def _audit(bench: Bench) -> Table:
@@ -212,16 +157,7 @@ def _dots(bench: Bench, law: str, ax: Axes) -> None:
     for shift, ((window, when), colour) in zip((-0.12, 0.12), zip(WINDOWS.items(), colours)):
         for place, case in enumerate(ALL.values()):
             values = _peak(bench, case, window, law)
-            ax.plot(
-                np.full(values.size, place + shift),
-                values,
-                "o",
-                ms=3,
-                alpha=0.4,
-                mew=0,
-                color=colour,
-                label=when if place == 0 else None,
-            )
+            ax.plot(np.full(values.size, place + shift), values, "o", ms=3, alpha=0.4, mew=0, color=colour, label=when if place == 0 else None)
             ax.plot([place + shift - 0.09, place + shift + 0.09], [np.nanmean(values)] * 2, color=colour, lw=2)
     ax.set_yscale("log")
     ax.set_xticks(range(len(ALL)), [words.replace(", ", "\n") for words in ALL])

@@ -17,13 +17,7 @@ standard_gravity = 9.80665  # m/s²
 
 @of_result
 def spectrum(
-    result: xr.Dataset,
-    name: str = "acceleration_top",
-    member: Members = None,
-    ax: Axes | None = None,
-    *,
-    reference: float | None = None,
-    span: float = 100.0,
+    result: xr.Dataset, name: str = "acceleration_top", member: Members = None, ax: Axes | None = None, *, reference: float | None = None, span: float = 100.0
 ) -> Axes:
     """One-sided amplitude spectrum with a Hann window, in decibels (Fig. 5 of Qian et al. 2020).
 

@@ -69,7 +69,7 @@ def scaled(units: str, values: Any) -> tuple[float, str]:
 
 
 def label(words: str, unit: str) -> str:
-    """"y [µm]", or the words alone of a number without unit."""
+    """ "y [µm]", or the words alone of a number without unit."""
     return f"{words} [{unit}]" if unit else words
 
 
@@ -117,8 +117,7 @@ def variable(result: xr.Dataset, name: str) -> xr.DataArray:
         raise SlidewayError(f'this result has no {name}; use study.kind = "lyapunov", or "sweep" with study.exponents = 1')
     if "sample" not in result.dims and not name.startswith(("peak_", "max_", "min_", "mean_", "rms_", "final_")):
         raise SlidewayError(
-            f'this result has no {name}; add study.samples_per_revolution = 200 for a time series, and "{name}" to '
-            "study.quantities if it is no state"
+            f'this result has no {name}; add study.samples_per_revolution = 200 for a time series, and "{name}" to study.quantities if it is no state'
         )
     raise SlidewayError(f'this result has no {name}; add "{name}" to study.quantities')
 
@@ -157,9 +156,7 @@ def failures(result: xr.Dataset, members: Sequence[int]) -> int:
     return int((~finished(result).sel(member=list(members))).sum()) if "status" in result else 0
 
 
-def draw_members(
-    ax: Axes, time: np.ndarray, rows: np.ndarray, members: Sequence[int], failed: int, coarse: str | None = None
-) -> None:
+def draw_members(ax: Axes, time: np.ndarray, rows: np.ndarray, members: Sequence[int], failed: int, coarse: str | None = None) -> None:
     """Series of members over the time: lines of few, the bands in which many of them lie.
 
     Args:

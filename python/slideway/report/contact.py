@@ -9,17 +9,13 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Signs (along X, Y, Z) of the apices P1 ... P8.
-APEX_SIGNS = np.array(
-    [[1, 1, 1], [1, -1, 1], [1, -1, -1], [1, 1, -1], [-1, 1, 1], [-1, -1, 1], [-1, -1, -1], [-1, 1, -1]], dtype=float
-)
+APEX_SIGNS = np.array([[1, 1, 1], [1, -1, 1], [1, -1, -1], [1, 1, -1], [-1, 1, 1], [-1, -1, 1], [-1, -1, -1], [-1, 1, -1]], dtype=float)
 # Faces as rings of apices, so that neighbours in a ring share an edge; numbers from 0.
 Y_FACES = ((0, 3, 7, 4), (1, 2, 6, 5))  # top, bottom
 Z_FACES = ((0, 1, 5, 4), (3, 2, 6, 7))  # front, back
 
 
-def spatial_depths(
-    y: Array, z: Array, attitude: Array, length: float, width: float, depth: float, gap_y: float, gap_z: float
-) -> Array:
+def spatial_depths(y: Array, z: Array, attitude: Array, length: float, width: float, depth: float, gap_y: float, gap_z: float) -> Array:
     """Penetrations of the sixteen apex-face pairs (model.md section 3, evaluated clearance first).
 
     Args:
@@ -33,9 +29,7 @@ def spatial_depths(
     """
     arm = np.stack(
         np.broadcast_arrays(
-            APEX_SIGNS[:, 0] * length / 2,
-            APEX_SIGNS[:, 1] * width / 2 - np.asarray(y)[:, None],
-            APEX_SIGNS[:, 2] * depth / 2 - np.asarray(z)[:, None],
+            APEX_SIGNS[:, 0] * length / 2, APEX_SIGNS[:, 1] * width / 2 - np.asarray(y)[:, None], APEX_SIGNS[:, 2] * depth / 2 - np.asarray(z)[:, None]
         ),
         -1,
     )

@@ -120,17 +120,18 @@ def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
         if column(every, "energy_residual") is not None:
             return Verdict("none", "No energy audit", ["No member finished, so there is nothing to audit."])
         wanted = "energy_residual, drive_work, friction_loss and damping_loss"
-        return Verdict(
-            "none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."]
-        )
+        return Verdict("none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."])
     law = slideway.scene(result).get("contact", {}).get("law")
     name = "The contact law of corners" if law is None else f"The {law} law"
     if _switches(result, law):
         return _of_switching(terms, name)
     if law == "rigid":
         return _of_conserving(terms, "Rigid contacts hold no energy: restitution and friction take some, and both are in the balance.")
-    return _of_conserving(terms, f"{name} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone "
-                                 "take some, and both are in the balance.")
+    return _of_conserving(
+        terms,
+        f"{name} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone "
+        "take some, and both are in the balance.",
+    )
 
 
 def _switches(result: xr.Dataset, law: str | None) -> bool:
@@ -159,15 +160,10 @@ def _compared(terms: Balance) -> list[str]:
 
 def _of_conserving(terms: Balance, why: str) -> Verdict:
     part = share(terms)
-    found = [
-        f"The residual is {_amount(terms)}.",
-        *_compared(terms),
-        why,
-    ]
+    found = [f"The residual is {_amount(terms)}.", *_compared(terms), why]
     if math.isnan(part) or (part > CLEAN and not terms.complete):
         unknown = (
-            "Whether that is much cannot be said without the drive's work and the losses; add drive_work, friction_loss and "
-            "damping_loss to study.quantities."
+            "Whether that is much cannot be said without the drive's work and the losses; add drive_work, friction_loss and damping_loss to study.quantities."
         )
         return Verdict("none", f"Residual {joules(terms.residual)}", [*found, unknown])
     if part <= CLEAN:
@@ -175,10 +171,7 @@ def _of_conserving(terms: Balance, why: str) -> Verdict:
         return Verdict("good", f"Energy is kept to {percent(part)}", [*found, left])
     if part <= SMALL:
         mean = percent(abs(terms.residual) / terms.scale)
-        left = (
-            "What is left is error of the integration, and in the worst member more than need be: smaller integrator.rtol "
-            "and atol make it smaller."
-        )
+        left = "What is left is error of the integration, and in the worst member more than need be: smaller integrator.rtol and atol make it smaller."
         return Verdict("warn", f"Energy is kept to {mean} on average, {percent(part)} at worst", [*found, left])
     much = (
         "So this is no physics but error of the integration, and too much of it: use smaller integrator.rtol and atol, or "
@@ -190,10 +183,7 @@ def _of_conserving(terms: Balance, why: str) -> Verdict:
 def _of_switching(terms: Balance, law: str) -> Verdict:
     part = share(terms)
     found = f"The residual is {_amount(terms)}."
-    why = (
-        f"{law} switches between surface, line and point contact, and the force jumps where it does. "
-        "Each mode by itself keeps energy, the jumps do not."
-    )
+    why = f"{law} switches between surface, line and point contact, and the force jumps where it does. Each mode by itself keeps energy, the jumps do not."
     if part <= CLEAN:
         hardly = "Here the modes hardly switched under load, so hardly any energy was made."
         return Verdict("good", f"Energy is kept to {percent(part)}", [found, *_compared(terms), why, hardly])
@@ -201,9 +191,7 @@ def _of_switching(terms: Balance, law: str) -> Verdict:
         found += f" That is {joules(terms.residual / terms.duration)} in each second."
     sentences = [found, *_compared(terms), why]
     if terms.residual > 0:
-        made = (
-            percent(terms.residual / terms.scale) + f" of {terms.scale_name}" if terms.scale > 0 else joules(terms.residual)
-        )
+        made = percent(terms.residual / terms.scale) + f" of {terms.scale_name}" if terms.scale > 0 else joules(terms.residual)
         headline = f"The contact law made {made}"
         sentences.append(
             "So this is not physics: a real joint makes no energy. It is a property of the law, does not go away with smaller "

@@ -44,11 +44,7 @@ def exponent_words(result: xr.Dataset) -> list[str]:
         ),
         ("lost_offsets", "offsets had shrunk into rounding, so exponents are upper bounds"),
     ):
-        share = (
-            float(result[name].values[ended].sum() / max(result["rescalings"].values[ended].sum(), 1))
-            if name in result
-            else 0
-        )
+        share = float(result[name].values[ended].sum() / max(result["rescalings"].values[ended].sum(), 1)) if name in result else 0
         if share > 0.01:
             sentences.append(f"At {number(100 * share, 2)} % of the rescalings {words}.")
     return sentences
@@ -58,8 +54,7 @@ def _of_columns(sweep: Sweep, largest: np.ndarray) -> str:
     """The range of the columns' medians: a mean over columns would be of no mechanism at all."""
     medians = sweep.medians(largest)
     ends = (
-        f"{number(float(medians[k]))} s⁻¹ at {amount(float(sweep.columns[k]), sweep.unit)}"
-        for k in (int(np.nanargmin(medians)), int(np.nanargmax(medians)))
+        f"{number(float(medians[k]))} s⁻¹ at {amount(float(sweep.columns[k]), sweep.unit)}" for k in (int(np.nanargmin(medians)), int(np.nanargmax(medians)))
     )
     return f"Largest exponent: medians of the columns lie between {' and '.join(ends)} of {sweep.key}."
 
@@ -105,17 +100,11 @@ def _convergence(result: xr.Dataset, ended: np.ndarray) -> Figure | None:
             data.append(line(time, curve, "member", "@c1/0.35", width=0.8, showlegend=False, hoverinfo="skip"))
         data.append(line(time, mean, "mean", "@c1", width=2.2))
         late = time >= from_
-        data.append(
-            line(
-                time[late], limit + memory / time[late], f"fit, tends to {number(limit)} s⁻¹", "@c2", width=2.2, dash="dash"
-            )
-        )
+        data.append(line(time[late], limit + memory / time[late], f"fit, tends to {number(limit)} s⁻¹", "@c2", width=2.2, dash="dash"))
         layout = rows([f"{name} so far [s<sup>−1</sup>]"], "time after the transient [s]")
         layout["yaxis"] |= {"rangemode": "normal"}
         variants.append(Variant(name, data, layout))
-    caption = (
-        "Running exponents. The fit is λ + a/t over the second half of the mean: what the start leaves behind decays as 1/t."
-    )
+    caption = "Running exponents. The fit is λ + a/t over the second half of the mean: what the start leaves behind decays as 1/t."
     return Figure("convergence", "Convergence of the exponents", caption, variants, choice="Exponent")
 
 
@@ -163,11 +152,7 @@ def poincare(result: xr.Dataset) -> Figure | None:
         variants.append(Variant(f"{up} over {across}", data, layout))
     if not variants:
         return None
-    where = (
-        f"at the crank angle {number(study.get('phase', 0.0))} rad"
-        if "section" not in study
-        else "where the scene's study.section is crossed"
-    )
+    where = f"at the crank angle {number(study.get('phase', 0.0))} rad" if "section" not in study else "where the scene's study.section is crossed"
     caption = (
         f"{counted(len(members), 'state')} of {counted(len(shown), 'member')} {where}. "
         "A few points are a periodic motion, a closed curve a quasi-periodic one, a cloud an irregular one."
@@ -179,7 +164,5 @@ def poincare(result: xr.Dataset) -> Figure | None:
 
 def scaled_sections(sections: xr.Dataset, name: str) -> tuple[np.ndarray, str]:
     """A state at the sections in a handy unit, and the title of its axis."""
-    factor, unit = FACTORS.get(
-        str(sections[name].attrs.get("units", "1")), (1.0, str(sections[name].attrs.get("units", "1")))
-    )
+    factor, unit = FACTORS.get(str(sections[name].attrs.get("units", "1")), (1.0, str(sections[name].attrs.get("units", "1"))))
     return sections[name].values * factor, f"{text(name)} [{text(unit)}]"

@@ -41,36 +41,17 @@ def time_series(result: xr.Dataset, seen: dict[int, Poses]) -> list[Figure]:
     names = series_names(result)
     asked = [name for name in names if name not in STATES and name not in COUNTS]
     figures = []
-    for name, title, groups, extra in (
-        ("series", "Time series", PLACE, asked),
-        ("rates", "Velocities", RATE, []),
-    ):
+    for name, title, groups, extra in (("series", "Time series", PLACE, asked), ("rates", "Velocities", RATE, [])):
         kept = [(unit, [s for s in states if s in names], factor) for unit, states, factor in groups]
-        drawn = [
-            (f"{', '.join(states)}{_origin(result, states)}<br>[{unit}]", states, factor)
-            for unit, states, factor in kept
-            if states
-        ]
+        drawn = [(f"{', '.join(states)}{_origin(result, states)}<br>[{unit}]", states, factor) for unit, states, factor in kept if states]
         titles = [head for head, _, _ in drawn] + [_axis_title(result, one) for one in extra]
         if not titles:
             continue
-        variants = [
-            Variant(label, _rows_of(result, member, drawn, extra, seen[member]), rows(titles, "time [s]"))
-            for member, label in chosen(result).items()
-        ]
+        variants = [Variant(label, _rows_of(result, member, drawn, extra, seen[member]), rows(titles, "time [s]")) for member, label in chosen(result).items()]
         if name == "series":
             for variant, pose in zip(variants, seen.values(), strict=True):
                 variant.layout["shapes"] = _walls(pose)
-        figures.append(
-            Figure(
-                name,
-                title,
-                _series_caption(result, name),
-                variants,
-                height=110 + 150 * len(titles),
-                choice="Member",
-            )
-        )
+        figures.append(Figure(name, title, _series_caption(result, name), variants, height=110 + 150 * len(titles), choice="Member"))
     return figures
 
 
@@ -85,9 +66,7 @@ def _axis_title(result: xr.Dataset, name: str) -> str:
     return "<br>".join(map(text, lines))
 
 
-def _rows_of(
-    result: xr.Dataset, member: int, groups: list[tuple[str, list[str], float]], extra: list[str], pose: Poses
-) -> list[Trace]:
+def _rows_of(result: xr.Dataset, member: int, groups: list[tuple[str, list[str], float]], extra: list[str], pose: Poses) -> list[Trace]:
     row = result.sel(member=member).isel(sample=pose.samples)
     rough = {name: too_coarse(result, [member], name) for name in [*STATES, *extra]}
     across = {"y": pose.y, "z": pose.z}  # from the way's axis, as the walls
@@ -156,14 +135,7 @@ def orbit(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
         start = points(z[:1], y[:1], "start", "@c1", size=9)
         joint = pose.joint
         across, up = joint.gap_z * 1e3, joint.gap_y * 1e3
-        walls = {
-            "type": "rect",
-            "x0": -across,
-            "x1": across,
-            "y0": -up,
-            "y1": up,
-            "line": {"color": "@muted", "dash": "dot", "width": 1},
-        }
+        walls = {"type": "rect", "x0": -across, "x1": across, "y0": -up, "y1": up, "line": {"color": "@muted", "dash": "dot", "width": 1}}
         origin = " from the way's axis" if may_be_misaligned(result) else ""
         layout = rows([f"y{origin} [mm]"], f"z{origin} [mm]")
         layout["yaxis"] |= {"scaleanchor": "x", "scaleratio": 1, "constrain": "domain"}

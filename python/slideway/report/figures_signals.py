@@ -14,13 +14,7 @@ from .traces import Figure, Variant, line, rows
 
 G = 9.80665  # the reference [m/s²]
 FLOOR = -140.0  # [dB]
-SERIES = {
-    "acceleration_top": "top sensor",
-    "acceleration_front": "front sensor",
-    "ax": "centre, along X",
-    "ay": "centre, along Y",
-    "az": "centre, along Z",
-}
+SERIES = {"acceleration_top": "top sensor", "acceleration_front": "front sensor", "ax": "centre, along X", "ay": "centre, along Y", "az": "centre, along Z"}
 
 
 def spectra(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:

@@ -89,15 +89,7 @@ def _kept(one: Column, name: str, edge: float, trials: int) -> str:
 def _interval(values: Array, ends: Array, colour: str) -> dict[str, Any]:
     """Error bars from values (n) to ends (n, 2), none where an end is unknown; without caps, which would stand there all the same."""
     up, down = (np.nan_to_num(np.clip(part, 0, None)) for part in (ends[:, 1] - values, values - ends[:, 0]))
-    return {
-        "type": "data",
-        "symmetric": False,
-        "array": packed(up),
-        "arrayminus": packed(down),
-        "color": colour,
-        "thickness": 1.2,
-        "width": 0,
-    }
+    return {"type": "data", "symmetric": False, "array": packed(up), "arrayminus": packed(down), "color": colour, "thickness": 1.2, "width": 0}
 
 
 def _line(x: float) -> dict[str, Any]:
@@ -105,15 +97,7 @@ def _line(x: float) -> dict[str, Any]:
 
 
 def _label(x: float, name: str) -> dict[str, Any]:
-    return {
-        "x": x,
-        "y": 1,
-        "yref": "paper",
-        "yanchor": "bottom",
-        "text": text(name),
-        "showarrow": False,
-        "font": {"color": "@bad"},
-    }
+    return {"x": x, "y": 1, "yref": "paper", "yanchor": "bottom", "text": text(name), "showarrow": False, "font": {"color": "@bad"}}
 
 
 def yields(result: xr.Dataset) -> list[tuple[str, int, int, float, float, float]]:
@@ -155,9 +139,7 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
             data = _bars(one, name, kinds, inputs)
             if data:
                 layout = {
-                    "xaxis": {
-                        "title": {"text": "share of the variance" if len(kinds) > 1 else "rank correlation"}
-                    },
+                    "xaxis": {"title": {"text": "share of the variance" if len(kinds) > 1 else "rank correlation"}},
                     "yaxis": {"automargin": True},
                     "barmode": "group",
                     "hovermode": "closest",
@@ -175,9 +157,7 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
         caption = "Spearman's rank correlation of input and quantity, from −1 to 1, bars: 95 % intervals where the design allows some."
     if without:
         caption += f" Without an index: {text(without)}."
-    return Figure(
-        "sensitivity", "What drives the scatter", caption, variants, height=140 + 42 * len(inputs), choice="Quantity"
-    )
+    return Figure("sensitivity", "What drives the scatter", caption, variants, height=140 + 42 * len(inputs), choice="Quantity")
 
 
 def _labels(result: xr.Dataset, dimension: str, size: int) -> list[str]:
@@ -192,14 +172,7 @@ def _bars(one: xr.Dataset, name: str, kinds: Kinds, inputs: list[str]) -> list[T
         if not np.isfinite(values).any():
             return []
         ends = one[f"{name}_{kind}_interval"].values[order]
-        trace: Trace = {
-            "type": "bar",
-            "orientation": "h",
-            "name": words,
-            "y": [inputs[k] for k in order],
-            "x": packed(values),
-            "marker": {"color": colour},
-        }
+        trace: Trace = {"type": "bar", "orientation": "h", "name": words, "y": [inputs[k] for k in order], "x": packed(values), "marker": {"color": colour}}
         if np.isfinite(ends).any():
             trace["error_x"] = _interval(values, ends, "@muted")
         data.append(trace)

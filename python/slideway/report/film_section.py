@@ -8,15 +8,9 @@ from .markup import Section, tag, words
 from .numbers import number
 
 SPEEDS = (0.1, 0.25, 0.5, 1, 2, 4)
-COLOURS = (
-    ("var(--point)", "point"),
-    ("var(--line)", "line"),
-    ("var(--surface)", "surface"),
-    ("var(--free)", "free (below the pictures)"),
-)
+COLOURS = (("var(--point)", "point"), ("var(--line)", "line"), ("var(--surface)", "surface"), ("var(--free)", "free (below the pictures)"))
 VIEWS = {
-    "end": "Along the way: Z to the right, Y up. "
-    "Solid and dots: the slider and its apices at the nearer end; dashed and rings: at the farther one.",
+    "end": "Along the way: Z to the right, Y up. Solid and dots: the slider and its apices at the nearer end; dashed and rings: at the farther one.",
     "side": "From the side: X to the right, Y up.",
     "top": "From above: X to the right, Z down.",
 }

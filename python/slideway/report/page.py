@@ -45,10 +45,7 @@ from .sweep import sweep_of
 from .traces import Figure
 
 # Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
-    "form-action 'none'"
-)
+POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'"
 
 # By which the program and this package know a page again.
 GENERATOR = '<meta name="generator" content="slideway">'
@@ -177,14 +174,7 @@ def _figures(result: xr.Dataset, every: list[Column], film: Film | str, audit: A
     return {figure.name: figure for figure in made if figure}
 
 
-def _header(
-    result: xr.Dataset,
-    title: str,
-    ended: list[statuses.Ending],
-    judged: energy.Verdict,
-    resolved: Resolution | None,
-    parts: list[Section],
-) -> str:
+def _header(result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, resolved: Resolution | None, parts: list[Section]) -> str:
     cards = [(*statuses.headline(ended), "Members", "endings"), (judged.grade, judged.headline, "Energy", "energy")]
     if resolved is not None:
         cards.append((resolved.grade, resolved.headline.split(":")[0], "Resolution", "resolution"))
@@ -196,10 +186,7 @@ def _header(
         _, _, trials, share, low, high = yields[-1]
         interval = f" ({percent(low, 3)} to {percent(high, 3)})" if low == low else ""
         cards.append(("none", f"{percent(share, 3)}{interval} of {counted(trials, 'member')} that ran meet all limits", "Yield", "summary"))
-    items = [
-        tag("li", tag("span", words(about)), tag("a", words(line), href=f"#{target}"), class_=grade)
-        for grade, line, about, target in cards
-    ]
+    items = [tag("li", tag("span", words(about)), tag("a", words(line), href=f"#{target}"), class_=grade) for grade, line, about, target in cards]
     links = [tag("li", tag("a", words(section.title), href=f"#{section.name}")) for section in parts]
     study = str(slideway.scene(result).get("study", {}).get("kind", ""))
     created = str(result.attrs.get("created", "")).replace("T", " ").replace("Z", " UTC")
@@ -233,10 +220,7 @@ def _scripts(figures: dict[str, Figure], film: Film | str) -> str:
 
         blocks += tag("script", get_plotlyjs())
     data = {
-        figure.name: {
-            "height": figure.height,
-            "variants": [{"data": variant.data, "layout": variant.layout} for variant in figure.variants],
-        }
+        figure.name: {"height": figure.height, "variants": [{"data": variant.data, "layout": variant.layout} for variant in figure.variants]}
         for figure in figures.values()
     }
     blocks += data_block("figures", data)

@@ -91,16 +91,7 @@ def line(x: ArrayLike, y: ArrayLike, name: str, colour: str, axis: int = 1, **mo
     xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     kept = thinned(ys)
     style = {"color": colour, "width": more.pop("width", 1.3), "dash": more.pop("dash", "solid")}
-    return {
-        "type": "scatter",
-        "mode": "lines",
-        "name": text(name),
-        "x": packed(xs[kept]),
-        "y": packed(ys[kept]),
-        "line": style,
-        **on_row(axis),
-        **more,
-    }
+    return {"type": "scatter", "mode": "lines", "name": text(name), "x": packed(xs[kept]), "y": packed(ys[kept]), "line": style, **on_row(axis), **more}
 
 
 def points(x: ArrayLike, y: ArrayLike, name: str, colour: str, axis: int = 1, size: float = 4, **more: Any) -> Trace:
@@ -110,16 +101,7 @@ def points(x: ArrayLike, y: ArrayLike, name: str, colour: str, axis: int = 1, si
         kept = np.linspace(0, len(xs) - 1, MOST_POINTS).round().astype(int)
         xs, ys = xs[kept], ys[kept]
     marker = {"color": colour, "size": size, **more.pop("marker", {})}
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "name": text(name),
-        "x": packed(xs),
-        "y": packed(ys),
-        "marker": marker,
-        **on_row(axis),
-        **more,
-    }
+    return {"type": "scatter", "mode": "markers", "name": text(name), "x": packed(xs), "y": packed(ys), "marker": marker, **on_row(axis), **more}
 
 
 def band(x: ArrayLike, low: ArrayLike, high: ArrayLike, name: str, colour: str, axis: int = 1) -> list[Trace]:
@@ -175,22 +157,6 @@ def bins(values: ArrayLike, most: int = 60) -> NDArray[np.float64]:
 
 def vertical(x: float, label: str, colour: str = "@bad") -> tuple[dict[str, Any], dict[str, Any]]:
     """A line across all rows at x with a label at its top: a shape and an annotation."""
-    shape = {
-        "type": "line",
-        "x0": x,
-        "x1": x,
-        "yref": "paper",
-        "y0": 0,
-        "y1": 1,
-        "line": {"color": colour, "dash": "dash", "width": 1.5},
-    }
-    note = {
-        "x": x,
-        "y": 1,
-        "yref": "paper",
-        "yanchor": "bottom",
-        "text": text(label),
-        "showarrow": False,
-        "font": {"color": colour},
-    }
+    shape = {"type": "line", "x0": x, "x1": x, "yref": "paper", "y0": 0, "y1": 1, "line": {"color": colour, "dash": "dash", "width": 1.5}}
+    note = {"x": x, "y": 1, "yref": "paper", "yanchor": "bottom", "text": text(label), "showarrow": False, "font": {"color": colour}}
     return shape, note
