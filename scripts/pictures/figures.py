@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import slideway
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter
 from slideway.palette import class_colours, colours, grey, limit_colour
+from slideway.plot.axes import frame
 from slideway.sections import sections
 
 from .style import as_svg, law_colours, law_names, panels
@@ -25,16 +25,6 @@ def run(root: Path, scene: str, law: str, **overrides: Any) -> xr.Dataset:
     varied = overrides.pop("vary", None)
     return slideway.run(root / scene, progress=False, contact__law=law, set={"study.vary": varied} if varied else None,
                         **{"study__verify": 0} | overrides)
-
-
-def frame(ax: Axes, x: str, y: str) -> None:
-    """Labels and a light grid."""
-    ax.set_xlabel(x)
-    ax.set_ylabel(y)
-    ax.grid(True, color="#DDDDDD", lw=0.6)
-    ax.set_axisbelow(True)
-    for side in ("top", "right"):
-        ax.spines[side].set_visible(False)
 
 
 def stretches(time: np.ndarray, there: np.ndarray, columns: int = 400) -> list[tuple[float, float]]:

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import slideway
 from slideway.palette import colours, limit_colour
+from slideway.plot.axes import frame
 
-from .figures import frame
 from .style import as_svg, panels
 
 _soft = 1e8  # [N/m^1.5], so soft that the difference shows

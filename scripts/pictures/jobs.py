@@ -16,8 +16,8 @@ import slideway
 import xarray as xr
 from scipy.io import loadmat
 from slideway.palette import colours, grey, limit_colour
+from slideway.plot.axes import frame
 
-from .figures import frame
 from .style import as_svg, panels
 
 _g = 9.81

@@ -14,8 +14,9 @@ import slideway
 from matplotlib.patches import FancyBboxPatch
 from PIL import Image
 from slideway.palette import colours, grey
+from slideway.plot.axes import frame
 
-from .figures import frame, run
+from .figures import run
 from .style import as_svg, panels
 
 

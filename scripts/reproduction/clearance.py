@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 from slideway.palette import colours
-from slideway.plot.style import finish
+from slideway.plot.axes import finish
 
 from .claims import LAWS, Claim, Finding, claim, growth, said
 from .estimates import Change, difference, estimate

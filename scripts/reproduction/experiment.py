@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from slideway.palette import colours
-from slideway.plot.style import finish
+from slideway.plot.axes import finish
 from slideway.signals import amplitude_spectrum, even_step, running_integral
 
 from .claims import LAW_WORDS, LAWS, Claim, Finding, claim, growth, said

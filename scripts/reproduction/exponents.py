@@ -9,7 +9,7 @@ import numpy as np
 import slideway
 from matplotlib.axes import Axes
 from slideway.palette import colours
-from slideway.plot.style import finish
+from slideway.plot.axes import finish
 
 from .claims import LAW_WORDS, LAWS, UNTOLD, Claim, Finding, Verdict, claim, plus_minus, said
 from .estimates import estimate, share

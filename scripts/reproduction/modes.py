@@ -6,7 +6,7 @@ import numpy as np
 import slideway
 from matplotlib.axes import Axes
 from slideway.palette import class_colours
-from slideway.plot.style import finish
+from slideway.plot.axes import finish
 
 from .claims import LAW_WORDS, LAWS, Claim, Finding, claim, said
 from .estimates import Change, difference, estimate

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import slideway
-from pictures.figures import frame
 from pictures.style import as_svg, panels
 from slideway.palette import colours, grey, limit_colour
+from slideway.plot.axes import frame
 
 from . import ideal
 from .machines import Carriage, Press, ideal_press, lifting

@@ -5,15 +5,15 @@
 'time [s]'
 """
 
-from .chaos import divergence, exponent_histogram, exponent_history
+from ..figures.chaos import divergence, exponent_histogram, exponent_history
+from ..figures.forces import force_histogram
+from ..figures.orbits import orbit_yz, poincare
+from ..figures.precision import work_precision
+from ..figures.series import cumulative_area, time_series
+from ..figures.spectra import spectrum
+from ..figures.sweeps import bifurcation, exponent_sweep
+from ..figures.tolerance import quantiles, sensitivity
 from .explanation import apex_forces
-from .forces import force_histogram
-from .orbits import orbit_yz, poincare
-from .precision import work_precision
-from .series import cumulative_area, time_series
-from .spectra import spectrum
-from .sweeps import bifurcation, exponent_sweep
-from .tolerance import quantiles, sensitivity
 
 __all__ = [
     "apex_forces",

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import xarray as xr
 
-from .columns import Column, column, columns
+from slideway.columns import Column, column, columns
+
 from .energy import Balance, Verdict, balance, share, verdict
 from .numbers import counted
 from .sweep import by_column, sweep_of

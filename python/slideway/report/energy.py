@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import xarray as xr
 
 import slideway
+from slideway.columns import Column, column
 from slideway.ideal import drive_kind
 from slideway.way import mean_clearance, play
 
-from .columns import Column, column
 from .numbers import amount, percent
 
 CLEAN = 1e-3  # of the work: a residual that no conclusion of a study depends on

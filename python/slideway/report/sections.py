@@ -6,11 +6,14 @@ import math
 
 import xarray as xr
 
-from . import energy, facts, figures_orbits, figures_sweep, figures_tolerance, statuses
-from .columns import Column
+from slideway.columns import Column
+from slideway.units import scaled
+
+from . import energy, facts, statuses
+from .findings import column_table, exponent_words, yields
 from .markup import Section, table, tag, words
 from .markup import facts as fact_list
-from .numbers import number, percent, scaled, unit_words
+from .numbers import number, percent
 from .resolution import Resolution
 from .sweep import sweep_of
 from .traces import Figure
@@ -61,10 +64,10 @@ def resolution_section(found: Resolution | None) -> Section | None:
 def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
     """What the study concludes: exponents, yields, quantities; None where there is nothing."""
     body = ""
-    exponents = figures_orbits.exponent_words(result) if "status" in result else []
+    exponents = exponent_words(result) if "status" in result else []
     if exponents:
         body += tag("p", words(" ".join(exponents)))
-    limits = figures_tolerance.yields(result)
+    limits = yields(result)
     if limits:
         caption = "Yield: of the members that ran, those that meet the limits; one that failed meets none"
         head = ("limit", "met by", "that ran", "yield", "95 % interval")
@@ -74,7 +77,7 @@ def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
     if sweep and shown:
         caption = f"Quantities of the members that finished: medians of the columns of {sweep.key}"
         named = ("quantity", "unit", "least", "largest")
-        body += table(named, figures_sweep.column_table(result, sweep), caption, numeric=2)
+        body += table(named, column_table(result, sweep), caption, numeric=2)
     elif shown:
         body += _quantities(shown)
     return Section("summary", "Summary", body) if body else None
@@ -90,8 +93,8 @@ def _quantities(shown: list[Column]) -> str:
     if all(one.count == 1 for one in shown):
         rows = []
         for one in shown:
-            factor, unit = scaled(one.mean, one.unit)
-            rows.append((one.name, one.meaning, unit_words(unit), number(one.mean * factor, 5)))
+            factor, unit = scaled(one.unit, one.mean)
+            rows.append((one.name, one.meaning, unit, number(one.mean * factor, 5)))
         return table(("quantity", "meaning", "unit", "value"), rows, caption, numeric=3)
     wanted = [p for p in (0.05, 0.5, 0.95) if all(p in one.quantiles for one in shown)]
     quantiles = (f"{100 * p:g} %" for p in wanted)
@@ -103,9 +106,9 @@ def _quantities(shown: list[Column]) -> str:
 
 
 def _moments(one: Column, wanted: list[float]) -> tuple[str, ...]:
-    factor, unit = scaled(max(abs(one.low), abs(one.high)), one.unit)
+    factor, unit = scaled(one.unit, (one.low, one.high))
     values = (one.mean, one.sd, one.low, *(one.quantiles[p] for p in wanted), one.high)
-    return one.name, unit_words(unit), f"{one.count:,}", *(number(value * factor) for value in values)
+    return one.name, unit, f"{one.count:,}", *(number(value * factor) for value in values)
 
 
 def plots_section(figures: list[Figure]) -> Section | None:

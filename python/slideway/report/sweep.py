@@ -8,11 +8,9 @@ import numpy as np
 import xarray as xr
 
 import slideway
+from slideway.figures.sweeps import medians_of
 
 from .numbers import amount
-from .traces import text
-
-FACTORS = {"m": (1e3, "mm"), "m s-1": (1e3, "mm/s"), "rad": (1e3, "mrad"), "rad s-1": (1.0, "rad/s")}
 
 
 @dataclass(frozen=True)
@@ -34,20 +32,13 @@ class Sweep:
         """The values of the parameter, each once."""
         return np.unique(self.values)
 
-    @property
-    def shown(self) -> tuple[np.ndarray, str]:
-        """The values in a handy unit, and the title of their axis."""
-        factor, unit = FACTORS.get(self.unit, (1.0, self.unit))
-        return self.values * factor, text(self.key) + ("" if unit == "1" else f" [{text(unit)}]")
-
     def named(self, value: float) -> str:
         """A column by its value: "joint.clearance = 0.1 mm"."""
         return f"{self.key} = {amount(value, self.unit)}"
 
     def medians(self, values: np.ndarray) -> np.ndarray:
         """Of each column the median of the members that have a number (member), NaN where none has."""
-        parts = (values[(self.values == column) & np.isfinite(values)] for column in self.columns)
-        return np.array([np.median(part) if part.size else np.nan for part in parts])
+        return medians_of(self.values, values)[1]
 
 
 def sweep_of(result: xr.Dataset) -> Sweep | None:

@@ -7,7 +7,7 @@ import math
 import pytest
 import xarray as xr
 from slideway.report import energy
-from slideway.report.columns import Column
+from slideway.columns import Column
 
 
 def scene(law: str | None, kind: str = "slider_crank", more: str = "", **attributes: object) -> xr.Dataset:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
 from ..errors import SlidewayError
 from ..ideal import ideal
@@ -12,14 +13,19 @@ from ..palette import grey
 from ..sampling import coarse_words, sample_axis, too_coarse
 from ..scenes import scene
 from ..signals import running_integral
-from ..way import across, mean_clearance, may_be_misaligned
-from .style import Members, axis, chosen, draw_members, failures, finish, label, of_result, scaled, series_of, words_of
+from ..units import scaled
+from ..way import across, may_be_misaligned, mean_clearance
+from .base import Members, chosen, drawn, failures, members_over, series_of, words_of
+from .marks import Axis, Curve, Level, Mark, Panel
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
-@of_result
+@drawn
 def time_series(
     result: xr.Dataset, name: str = "y", member: Members = None, ax: Axes | None = None, *, difference: bool = False, gap: bool = True
-) -> Axes:
+) -> Panel:
     """A series over the time, with the mechanism without clearance behind it.
 
     Up to eight members are lines, more of them bands; samples that are far coarser than the contacts are points. Of y and z the
@@ -57,22 +63,21 @@ def time_series(
             row -= background if own is None else own
         background, words = None, f"{words} − ideal"
     factor, unit = scaled(str(data.attrs.get("units", "1")), rows)
-    second, time_unit = scaled("s", time) if time_unit == "s" else (1.0, "turns")
-    ax = axis(ax)
+    second, x = time_axis(time, time_unit)
+    marks: list[Mark] = []
     if background is not None:
-        ax.plot(second * time, factor * background, color=grey, lw=2.5, alpha=0.6, zorder=1,
-                label="axis of the way" if name in ("y", "z") else "ideal mechanism")
+        of = "axis of the way" if name in ("y", "z") else "ideal mechanism"
+        marks.append(Curve(second * time, factor * background, of, grey, 0.6, 2.5, behind=True))
     clearance = _clearance(result, members, name) if gap and background is not None and not difference else None
     if clearance is not None:
-        for end, words_of_line in ((clearance, "clearance"), (-clearance, None)):
-            ax.axhline(factor * end, color=grey, lw=1, ls=":", label=words_of_line, zorder=1)
+        marks += [Level(factor * end, label=label, dash=":") for end, label in ((clearance, "clearance"), (-clearance, None))]
     coarse = coarse_words(result) if too_coarse(result, members, name) else None
-    draw_members(ax, second * time, factor * rows, members, failures(result, members), coarse)
-    return finish(ax, _axis_label(time_unit), label(words, unit))
+    marks += members_over(second * time, factor * rows, members, failures(result, members), coarse)
+    return Panel(marks, x, Axis(words, unit))
 
 
-@of_result
-def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: Members = None, ax: Axes | None = None) -> Axes:
+@drawn
+def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: Members = None, ax: Axes | None = None) -> Panel:
     """∫|a| dt over the time, as Fig. 4 of Qian et al. (2020): its slope is the mean magnitude of an acceleration.
 
     Args:
@@ -92,15 +97,16 @@ def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: 
     rows = running_integral(np.abs(data.sel(member=members).values), own.values)
     units = str(data.attrs.get("units", "1"))
     factor, unit = scaled({"m s-2": "m s-1", "m s-1": "m", "rad s-1": "rad"}.get(units, f"{units} s".removeprefix("1 ")), rows)
-    second, time_unit = scaled("s", time) if time_unit == "s" else (1.0, "turns")
-    ax = axis(ax)
-    draw_members(ax, second * time, factor * rows, members, failures(result, members))
-    ax.set_ylim(bottom=0)
-    return finish(ax, _axis_label(time_unit), label(f"∫|{words_of(name)}| dt", unit))
+    second, x = time_axis(time, time_unit)
+    return Panel(members_over(second * time, factor * rows, members, failures(result, members)), x, Axis(f"∫|{words_of(name)}| dt", unit, low=0.0))
 
 
-def _axis_label(unit: str) -> str:
-    return "turns of the crank" if unit == "turns" else label("time", unit)
+def time_axis(time: np.ndarray, unit: str) -> tuple[float, Axis]:
+    """What brings places of samples into the unit of their axis, and this axis."""
+    if unit == "turns":
+        return 1.0, Axis("turns of the crank", tight=True)
+    second, handy = scaled("s", time)
+    return second, Axis("time", handy, tight=True)
 
 
 def _clearance(result: xr.Dataset, members: list[int], name: str) -> float | None:

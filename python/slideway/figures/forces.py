@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
 from ..arguments import whole
 from ..errors import SlidewayError
 from ..palette import class_colours
-from .style import Members, axis, chosen, finish, kind_of, label, of_result, scaled, variable
+from ..units import scaled
+from .base import Members, chosen, drawn, kind_of, variable
+from .marks import Axis, Bars, Mark, Note, Panel
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 _classes = ("point", "line", "surface")
 
 
-@of_result
-def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, bins: int = 40) -> Axes:
+@drawn
+def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, bins: int = 40) -> Panel:
     """How often which normal force acts, by the class of the contact mode (Fig. 11 of Qian et al. 2020).
 
     By the hardest contact of the moment: a surface, else a line, else a point. Both axes are logarithmic, for the rare contacts of
@@ -55,17 +61,12 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     # The thousandth of the samples that grazes with least force would stretch the axis over many decades, and is left out.
     low, high = np.quantile(force[pushing], (0.001, 1.0))
     edges = factor * np.geomspace(max(low, 1e-6 * high), high * 1.0001, bins + 1)
-    ax = axis(ax)
     least = 100 / there.sum()  # one sample
+    marks: list[Mark] = []
     for name in _classes:
         counts = np.histogram(factor * force[of_class[name]], edges)[0] * least
         share = of_class[name].sum() / there.sum()
         heights = np.maximum(counts, 0.5 * least)
-        words = f"{name}, {share:.2%} of the time"
-        ax.stairs(heights, edges, baseline=0.5 * least, fill=True, color=class_colours[name], alpha=0.3)
-        ax.stairs(heights, edges, baseline=0.5 * least, color=class_colours[name], lw=1.3, label=words)
-    ax.plot([], [], " ", label=f"free flight, {1 - touching.sum() / there.sum():.2%}")
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_ylim(bottom=0.5 * least)
-    return finish(ax, label("normal force", unit), "share of all samples [%]")
+        marks.append(Bars(edges, heights, f"{name}, {share:.2%} of the time", class_colours[name], base=0.5 * least, outlined=True))
+    marks.append(Note(f"free flight, {1 - touching.sum() / there.sum():.2%}"))
+    return Panel(marks, Axis("normal force", unit, log=True), Axis("share of all samples", "%", log=True, low=0.5 * least))

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-import slideway
-
-from ..distribution import drawn
+from .distribution import drawn
+from .members import finished
+from .results import groups, holds_all, path_of
+from .results import open as open_result
+from .scenes import scene
 
 Array = NDArray[np.float64]
 
@@ -43,16 +45,36 @@ class Column:
     values: Array | None  # of the members that finished; None where the file has only statistics
     histogram: Histogram | None  # where the file has one
 
+    @property
+    def component(self) -> str:
+        """Which of the values of a quantity that has several; empty where it has one."""
+        return self.name.partition("[")[2].removesuffix("]")
 
-def columns(result: xr.Dataset) -> list[Column]:
-    """All quantities that the scene asked for, of the members that finished; from the group statistics where there is one."""
-    if "statistics" in slideway.groups(result) and slideway.results.holds_all(result):
-        with slideway.open(slideway.results.path_of(result), group="statistics") as statistics:
-            return [column for name in _asked(result) for column in _from_statistics(result, statistics.load(), name)]
-    if "status" not in result:
-        return []
-    ended = slideway.finished(result).values & drawn(result)
-    return [_of_members(name, meaning, unit, values[ended]) for name, meaning, unit, values in stored(result)]
+    @property
+    def of_file(self) -> bool:
+        """Whether the quantiles are the file's statistics."""
+        return len(self.quantiles) > len(SHOWN)
+
+
+def columns(result: xr.Dataset, names: Sequence[str] | None = None) -> list[Column]:
+    """Quantities of the members that finished, from the group statistics where it has them; left out: all that the scene asked for."""
+    statistics = group_of(result, "statistics")
+    ended = (finished(result).values if "status" in result else True) & drawn(result)
+    every: list[Column] = []
+    for name in _asked(result) if names is None else names:
+        if statistics is not None and f"{name}_mean" in statistics:
+            every += _from_statistics(result, statistics, name, ended)
+        else:
+            every += [_of_members(component, meaning, unit, values[ended]) for component, meaning, unit, values in stored(result, [name])]
+    return every
+
+
+def group_of(result: xr.Dataset, name: str) -> xr.Dataset | None:
+    """A group of the result's file, if it has one and the result is all of the file."""
+    if not result.encoding.get("source") or name not in groups(result) or not holds_all(result):
+        return None
+    with open_result(path_of(result), group=name) as group:
+        return group.load()
 
 
 def column(every: list[Column], name: str) -> Column | None:
@@ -61,13 +83,13 @@ def column(every: list[Column], name: str) -> Column | None:
 
 
 def _asked(result: xr.Dataset) -> list[str]:
-    return [str(name) for name in slideway.scene(result).get("study", {}).get("quantities", [])]
+    return [str(name) for name in scene(result).get("study", {}).get("quantities", [])]
 
 
-def stored(result: xr.Dataset) -> Iterator[tuple[str, str, str, Array]]:
-    """Name, meaning, unit and values (member) of each component of each quantity."""
-    for name in _asked(result):
-        if name not in result or "sample" in result[name].dims:
+def stored(result: xr.Dataset, names: Sequence[str] | None = None) -> Iterator[tuple[str, str, str, Array]]:
+    """Name, meaning, unit and values (member) of each component of each of these quantities; left out: of all that the scene asked for."""
+    for name in _asked(result) if names is None else names:
+        if name not in result.data_vars or "member" not in result[name].dims or "sample" in result[name].dims:
             continue
         variable = result[name].transpose("member", ...)
         meaning, unit = str(variable.attrs.get("long_name", "")), str(variable.attrs.get("units", "1"))
@@ -103,13 +125,10 @@ def _of_members(name: str, meaning: str, unit: str, values: Array) -> Column:
     )
 
 
-def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str) -> Iterator[Column]:
-    if f"{name}_mean" not in statistics:
-        return
+def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str, ended: NDArray[np.bool_]) -> Iterator[Column]:
     mean = statistics[f"{name}_mean"]
     probabilities = statistics["probability"].values.tolist()
-    members = dict((one, values) for one, _, _, values in stored(result)) if "status" in result else {}
-    ended = slideway.finished(result).values & drawn(result) if members else None
+    members = {component: values for component, _, _, values in stored(result, [name])}
     labels = _labels(result, str(mean.dims[0]), mean.shape[0]) if mean.ndim else [None]
     for k, label in enumerate(labels):
         component = statistics if label is None else statistics.isel({str(mean.dims[0]): k})
@@ -130,6 +149,6 @@ def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str) -> I
             high=float(component[f"{name}_max"]),
             quantiles=dict(zip(probabilities, component[f"{name}_quantile"].values.tolist(), strict=True)),
             quantile_intervals=dict(zip(probabilities, map(tuple, bounds.tolist()), strict=True)) if has_bounds else {},
-            values=members[full][ended] if full in members and ended is not None else None,
+            values=members[full][ended] if full in members else None,
             histogram=Histogram(edges, counts) if len(edges) > 1 else None,
         )

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
 from ..arguments import positive
 from ..errors import SlidewayError
 from ..palette import colours
 from ..signals import amplitude_spectrum, even_step
-from .style import Members, axis, chosen, finish, label, most_lines, of_result, scaled, series_of, words_of
+from ..units import scaled, spelled
+from .base import Members, chosen, drawn, most_lines, series_of, words_of
+from .marks import Axis, Band, Curve, Mark, Panel
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 standard_gravity = 9.80665  # m/s²
 
 
-@of_result
+@drawn
 def spectrum(
     result: xr.Dataset, name: str = "acceleration_top", member: Members = None, ax: Axes | None = None, *, reference: float | None = None, span: float = 100.0
-) -> Axes:
+) -> Panel:
     """One-sided amplitude spectrum with a Hann window, in decibels (Fig. 5 of Qian et al. 2020).
 
     20 log10(amplitude / reference). Up to eight members are lines; of more the root mean square of their amplitudes is drawn,
@@ -49,28 +55,22 @@ def spectrum(
     members = [number for number, complete in zip(members, whole, strict=True) if complete]
     frequency, amplitude = amplitude_spectrum(rows[whole], even_step(result["time"].values))
     of_gravity = reference is None and units == "m s-2"
-    unit = scaled(units, [1.0])[1]
     level = standard_gravity if of_gravity else 1.0 if reference is None else reference
-    against = "g" if of_gravity else f"{level:g} {unit}".strip()
+    against = "g" if of_gravity else f"{level:g} {spelled(units)}".strip()
 
     def decibels(amplitudes: np.ndarray) -> np.ndarray:
         return np.asarray(20 * np.log10(np.maximum(amplitudes, np.finfo(float).tiny) / level))
 
     factor, hertz = scaled("Hz", frequency)
-    ax = axis(ax)
+    x = factor * frequency
     if len(members) <= most_lines:
-        lines = decibels(amplitude)
-        shown = lines
-        for number, line, colour in zip(members, lines, colours, strict=False):
-            ax.plot(factor * frequency, line, color=colour, lw=0.8, label=f"member {number}" if len(members) > 1 else None)
+        shown = decibels(amplitude)
+        names = [f"member {number}" if len(members) > 1 else None for number in members]
+        marks: list[Mark] = [Curve(x, line, name, colour, width=0.8) for name, line, colour in zip(names, shown, colours, strict=False)]
     else:
-        lines = decibels(np.sqrt(np.mean(amplitude**2, axis=0)))
-        low, high = decibels(np.quantile(amplitude, (0.05, 0.95), axis=0))
-        shown = np.array([low, high])
-        ax.fill_between(factor * frequency, low, high, color=colours[0], alpha=0.25, lw=0, label="90 % of the members")
-        ax.plot(factor * frequency, lines, color=colours[0], lw=1, label=f"root mean square of {len(members)} members")
+        middle = decibels(np.sqrt(np.mean(amplitude**2, axis=0)))
+        low, high = shown = decibels(np.quantile(amplitude, (0.05, 0.95), axis=0))
+        marks = [Band(x, low, high, "90 % of the members"), Curve(x, middle, f"root mean square of {len(members)} members", width=1)]
     # Single zeros of a spectrum would stretch the axis.
     peak, floor = float(shown.max()), float(np.quantile(shown, 0.01))
-    ax.set_ylim(max(peak - span, floor - 5), peak + 5)
-    ax.margins(x=0)
-    return finish(ax, label("frequency", hertz), label(words_of(name), f"dB re {against}"))
+    return Panel(marks, Axis("frequency", hertz, tight=True), Axis(words_of(name), f"dB re {against}", low=max(peak - span, floor - 5), high=peak + 5))
