@@ -50,3 +50,28 @@ def lowered(number: int) -> str:
     'λ₁₂'
     """
     return "".join("₀₁₂₃₄₅₆₇₈₉"[int(digit)] for digit in str(number))
+
+
+def plus_minus(value: float, half: float) -> str:
+    """A value and the half width of its interval, to two digits of the latter; of small and large ones the power of ten stands apart.
+
+    >>> plus_minus(1.234e-7, 2e-9), plus_minus(-0.0451, 0.0031), plus_minus(2.33075, 1e-9)
+    ('(1.234 ± 0.020)·10⁻⁷', '−0.0451 ± 0.0031', '2.33075 ± 0.00001')
+    """
+    if not np.isfinite(value):
+        return "no number"
+    if not np.isfinite(half) or half <= 0:
+        return _minus(f"{value:.4g}")
+    # More than six digits say nothing: an interval that is narrower is rounded up to the last of them.
+    half = max(half, 10.0 ** np.floor(np.log10(abs(value))) * 1e-5) if value else half
+    size = int(np.floor(np.log10(max(abs(value), half))))
+    power = size if size >= 5 or size <= -4 else 0
+    mean, width = value / 10.0**power, half / 10.0**power
+    digits = 0 if half <= abs(value) * 1.0001e-4 else 1
+    places = digits - int(np.floor(np.log10(width) + 1e-9))
+    text = _minus(f"{round(mean, places):.{max(places, 0)}f} ± {round(width, places):.{max(places, 0)}f}")
+    return f"({text})·10{str(power).translate(raised)}" if power else text
+
+
+def _minus(text: str) -> str:
+    return text.replace("-", "−") if "e" not in text else ("−" + text[1:] if text.startswith("-") else text)

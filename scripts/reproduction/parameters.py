@@ -27,43 +27,23 @@ def _bodies(bench: Bench) -> Table:
     scene = _scene(bench, "crank", "0.1mm")
     mechanism, joint, contact, friction = (scene[group] for group in ("mechanism", "joint", "contact", "friction"))
     rows = [
-        [
-            "crank: length; 5 × 2.5 mm section",
-            "50 mm, 7.8e3 kg/m³",
-            f"{_millimetres(mechanism['crank_length'])}, {1e3 * mechanism['crank_mass']:.4g} g",
-            "as printed",
-        ],
-        [
-            "rod: length; 14.2 × 7.1 mm section",
-            "142.2 mm, 7.8e3 kg/m³",
-            f"{_millimetres(mechanism['rod_length'])}, {1e3 * mechanism['rod_mass']:.4g} g",
-            "as printed",
-        ],
-        [
-            "slider",
-            "40 × 20 × 30 mm, 7.8e3 kg/m³",
-            f"{_millimetres(joint['slider_length'])} long, {1e3 * mechanism['slider_mass']:.4g} g",
-            "mass of the solid block, hole or not",
-        ],
-        [
-            "slide way",
-            "250 × 20 × 30 mm",
-            f"{_millimetres(joint['way_width'])} × {_millimetres(joint['way_depth'])}, endless",
-            "the slider does not reach its ends",
-        ],
-        [
-            "elastic modulus; Poisson's ratio",
-            "2.07e11 N/m²; 0.29",
-            f"{contact['slider_young_modulus']:.3g} Pa; {contact['slider_poisson_ratio']:g}",
-            "as printed, of both bodies (Table 7)",
-        ],
+        ["crank: length; 5 × 2.5 mm section", "50 mm, 7.8e3 kg/m³", f"{_millimetres(mechanism['crank_length'])}, {1e3 * mechanism['crank_mass']:.4g} g",
+         "as printed"],
+        ["rod: length; 14.2 × 7.1 mm section", "142.2 mm, 7.8e3 kg/m³", f"{_millimetres(mechanism['rod_length'])}, {1e3 * mechanism['rod_mass']:.4g} g",
+         "as printed"],
+        ["slider", "40 × 20 × 30 mm, 7.8e3 kg/m³", f"{_millimetres(joint['slider_length'])} long, {1e3 * mechanism['slider_mass']:.4g} g",
+         "mass of the solid block, hole or not"],
+        ["slide way", "250 × 20 × 30 mm", f"{_millimetres(joint['way_width'])} × {_millimetres(joint['way_depth'])}, endless",
+         "the slider does not reach its ends"],
+        ["elastic modulus; Poisson's ratio", "2.07e11 N/m²; 0.29", f"{contact['slider_young_modulus']:.3g} Pa; {contact['slider_poisson_ratio']:g}",
+         "as printed, of both bodies (Table 7)"],
         ["speed", "π rad/s", f"{mechanism['crank_speed']:.6g} rad/s", "as printed"],
         ["Hertz exponent (18)", "1.3 to 1.5", f"{contact['hertz_exponent']:g}", "within the print's range"],
         ["point damping C (18)", "0.1 to 1 % of K", f"{100 * contact['eta']:g} % of K", "within the print's range"],
         ["friction", "no values", f"μs {friction['static']:g}, μd {friction['kinetic']:g}", "own choice"],
         ["edge and apex radius", "no values", f"{_millimetres(contact['edge_radius'])}, {_millimetres(contact['apex_radius'])}", "own choice"],
         ["start", "no values", "scattered within the clearance", "own choice: an ensemble in place of one orbit"],
-    ]
+    ]  # fmt: skip
     return Table("Tables 6 and 7 (Table 7 names symbols, without values).", ["part", "print", "here", "remark"], rows)
 
 

@@ -55,18 +55,6 @@ def panel_of(plot: Callable[..., Axes], *given: Any, **named: Any) -> Panel | No
     return panel
 
 
-def plus_minus(value: float, error: float) -> str:
-    """A value and its error, to two digits of the error.
-
-    >>> plus_minus(684.52, 103.2), plus_minus(-0.04512, 0.0031)
-    ('680 ± 100', '-0.0451 ± 0.0031')
-    """
-    if not (np.isfinite(error) and error > 0):
-        return f"{value:.4g}"
-    places = 1 - int(np.floor(np.log10(error)))
-    return f"{round(value, places):.{max(places, 0)}f} ± {round(error, places):.{max(places, 0)}f}"
-
-
 def words_of(name: str) -> str:
     """A variable's name as words."""
     return name.replace("_", " ")

@@ -12,8 +12,8 @@ from ..exponent_signs import half_width_of_mean
 from ..members import with_members
 from ..palette import colours
 from ..series_statistics import SeriesStatistics, stats
-from ..units import lowered, scaled
-from .base import Members, chosen, drawn, exponent_of, failures, members_over, plus_minus, variable
+from ..units import lowered, plus_minus, scaled
+from .base import Members, chosen, drawn, exponent_of, failures, members_over, variable
 from .marks import Axis, Bars, Curve, Level, Mark, Note, Panel
 
 if TYPE_CHECKING:

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from reproduction.claims import LAWS, growth, judge, percent, plus_minus
+from reproduction.claims import LAWS, growth, judge, percent
+from slideway.units import plus_minus
 
 from test_estimates import around
 
