@@ -14,7 +14,7 @@ from slideway.palette import class_colours, colours, grey, limit_colour
 from slideway.plot.axes import frame
 from slideway.sections import sections
 
-from .style import as_svg, law_colours, law_names, panels
+from .style import as_svg, axes_of, law_colours, law_names
 
 _standard = "scenes/slider_crank_0.1mm.toml"
 _starts = {"initial.y": {"dist": "unif", "low": "-0.05 mm", "high": "0.05 mm"}}
@@ -44,7 +44,7 @@ def stretches(time: np.ndarray, there: np.ndarray, columns: int = 400) -> list[t
 def modes(root: Path) -> str:
     """Which contacts a slider has over its first 0.6 s: the hardest of each sample."""
     classes = ("free", "point", "line", "surface")
-    figure, axes = panels(2, height=4.2, sharex=True)
+    figure, axes = axes_of(2, height=4.2, sharex=True)
     for ax, law in zip(axes, law_names, strict=True):
         result = run(root, _standard, law, study__revolutions=0.3, study__samples_per_revolution=0, study__samples=6001,
                      study__quantities=["points", "lines", "surfaces", "x"])
@@ -65,7 +65,7 @@ def modes(root: Path) -> str:
 def energy_residual(root: Path) -> str:
     """Energy that each law makes over a turn of the crank, from eight starts; the share is that of the median start."""
     times = np.array([0.1, 0.3, 0.6, 1.2, 2.0])
-    figure, axes = panels(1, 2, height=3.2, sharey=True)
+    figure, axes = axes_of(1, 2, height=3.2, sharey=True)
     for ax, law in zip(axes, law_names, strict=True):
         rows = []
         for time in times:
@@ -85,7 +85,7 @@ def energy_residual(root: Path) -> str:
 
 def poincare(root: Path) -> str:
     """Sections at crank angle 0 under both laws."""
-    figure, axes = panels(1, 2, height=3.6, sharey=True)
+    figure, axes = axes_of(1, 2, height=3.6, sharey=True)
     for ax, law in zip(axes, law_names, strict=True):
         result = run(root, "scenes/poincare_0.1mm.toml", law, vary=_starts, study__members=16, study__transient_revolutions=2,
                      study__revolutions=20)
@@ -100,7 +100,7 @@ def poincare(root: Path) -> str:
 
 def bifurcation(root: Path) -> str:
     """Sections over the clearance, under the law as published and under the conservative one."""
-    figure, axes = panels(2, height=5.4, sharex=True)
+    figure, axes = axes_of(2, height=5.4, sharex=True)
     for ax, law in zip(axes, law_names, strict=True):
         result = run(root, "scenes/sweep_clearance.toml", law, study__points=16, study__revolutions=10, study__transient_revolutions=2,
                      study__exponents=0)
@@ -117,7 +117,7 @@ def bifurcation(root: Path) -> str:
 
 def tolerance(root: Path) -> str:
     """Peak normal forces of the mechanisms of a tolerance study, with the limit and the yield."""
-    figure, axes = panels(2, height=4.4, sharex=True)
+    figure, axes = axes_of(2, height=4.4, sharex=True)
     edges = np.geomspace(250, 6000, 61)
     for ax, law in zip(axes, law_names, strict=True):
         result = run(root, "scenes/tolerance_0.1mm.toml", law, study__base=128)
@@ -138,7 +138,7 @@ def tolerance(root: Path) -> str:
 
 def work_precision(root: Path) -> str:
     """Error against run time of one crank turn with its impacts (bench/results)."""
-    figure, (ax,) = panels(height=4.6)
+    figure, (ax,) = axes_of(height=4.6)
     slideway.plot.work_precision(root / "bench/results/work_precision.csv", "turn_energy", ax)
     ax.set_title("")
     ax.set_title("one crank turn with its impacts", loc="left")
@@ -161,7 +161,7 @@ def heyoka(root: Path) -> str:
     }
     with (root / "bench/results/heyoka_zen4.csv").open() as lines:
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    figure, axes = panels(2, 2, height=5.6, sharey=True)
+    figure, axes = axes_of(2, 2, height=5.6, sharey=True)
     handles: dict[str, Any] = {}
     for ax, (problem, title) in zip(axes, titles.items(), strict=True):
         for method, (words, style) in styles.items():

@@ -17,14 +17,14 @@ from slideway.palette import colours, grey
 from slideway.plot.axes import frame
 
 from .figures import run
-from .style import as_svg, panels
+from .style import as_svg, axes_of
 
 
 def stability(root: Path) -> str:
     """Energy error over the tolerance of each method, and of rk4 over its step (bench/results/stability.csv)."""
     lines = [line for line in (root / "bench/results/stability.csv").read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     rows = [row for row in csv.DictReader(lines) if row["law"] == "conservative"]
-    figure, (left, right) = panels(1, 2, height=3.4, sharey=True)
+    figure, (left, right) = axes_of(1, 2, height=3.4, sharey=True)
     for place, method in enumerate(("auto", "dopri5", "bs32", "ros34pw2")):
         own = [row for row in rows if row["axis"] == "tolerance" and row["method"] == method and int(row["finished"]) == int(row["members"])]
         left.loglog([float(row["tolerance"]) for row in own], [float(row["median_relative_residual"]) for row in own], "o-", ms=3.5, lw=1.2,
@@ -48,7 +48,7 @@ def stability(root: Path) -> str:
 def plots(root: Path) -> str:
     """Two plots of the Python package (docs/how_to/python.md), of a tolerance study."""
     result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=256)
-    figure, axes = panels(2, height=6.0)
+    figure, axes = axes_of(2, height=6.0)
     slideway.plot.quantiles(result, "peak_normal_force", ax=axes[0])
     slideway.plot.sensitivity(result, "peak_normal_force", ax=axes[1])
     for ax in axes:  # beside the axes the legends would take half of so narrow a picture
@@ -62,7 +62,7 @@ def explain(root: Path) -> str:
     result = run(root, "scenes/ensemble_starts.toml", "conservative", study__members=2, study__duration="40 ms", study__samples=4001,
                  study__quantities=["normal_force"])  # fmt: skip
     largest = float(result.time[int(result.normal_force.values[1].argmax())])
-    figure, axes = panels(1, 2, height=3.0)
+    figure, axes = axes_of(1, 2, height=3.0)
     for ax, view in zip(axes, ("end", "side"), strict=True):
         slideway.plot.apex_forces(slideway.explain(result, member=1, time=largest), ax, view=view)
     return as_svg(figure)

@@ -87,8 +87,8 @@ def _chart(bench: Bench, quantities: dict[str, Quantity], factor: float, words: 
     """From zero, or logarithmic where there are more than two decades to show."""
     curves = [_means(bench, quantity, window, law, colour, dash, f"{name}, {when}", factor) for (name, quantity), colour in zip(quantities.items(), colours)
               for (window, when), dash in zip(WINDOWS.items(), ("--", "-"))]  # fmt: skip
-    means = np.concatenate([curve.y for curve in curves])
-    wide = wide_range(means[means > 0])
+    ends = np.concatenate([end for curve in curves for end in (curve.low, curve.high)])
+    wide = wide_range(ends[ends > 0])
     plot(Panel(curves, Axis("clearance per side", "mm"), Axis(words, log=wide, low=None if wide else 0)), ax)
 
 

@@ -128,4 +128,4 @@ def _map(bench: Bench, clearance: float, law: str, ax: Axes) -> None:
     # A map that repeats is one dot in the room that the clearance leaves, not a magnified rounding error.
     room_x, room_vx = _room(clearance)
     across, up = Axis("x − (r + L)", "nm", low=-2.2e9 * room_x, high=0.1e9 * room_x), Axis("vx", "mm/s", low=-1.3e3 * room_vx, high=1.3e3 * room_vx)
-    plot(Panel([Cloud(1e9 * x, 1e3 * vx, opacity=0.8)], across, up), ax)
+    plot(Panel([Cloud(1e9 * x, 1e3 * vx, opacity=0.8, size=14)], across, up), ax)

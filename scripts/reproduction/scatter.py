@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
-from slideway.figures.marks import Axis, Cloud, Curve, Mark, Panel
+from slideway.figures.marks import Axis, Cloud, Curve, Mark, Panel, named
 from slideway.palette import colours
 from slideway.plot.axes import draw as plot
 
@@ -107,7 +107,7 @@ def _samples(bench: Bench, case: str, law: str, ax: Axes) -> None:
     time = bench.result("crank", case, "start", law)["time"].values
     force = bench.series("crank", case, "start", law, "normal_force")
     there = force > 1e-3
-    samples = Cloud(np.broadcast_to(time, force.shape)[there], force[there], opacity=0.5, size=1)
+    samples = Cloud(np.broadcast_to(time, force.shape)[there], force[there], opacity=0.5, size=2)
     plot(Panel([samples], Axis("time", "s", tight=True), Axis("normal force", "N", log=True)), ax)
 
 
@@ -118,4 +118,4 @@ def _dots(bench: Bench, law: str, ax: Axes) -> None:
             forces = PEAK(bench, case, window, law)
             marks.append(Cloud(np.full(forces.size, place + shift), forces, when if place == 0 else None, colour, 0.4, 9))
             marks.append(Curve(place + shift + np.array([-0.09, 0.09]), np.full(2, np.nanmean(forces)), colour=colour, width=2))
-    plot(Panel(marks, Axis("", names=[words.replace(", ", "\n") for words in ALL]), Axis("peak normal force", "N", log=True)), ax)
+    plot(Panel(marks, Axis("", ticks=named([words.replace(", ", "\n") for words in ALL])), Axis("peak normal force", "N", log=True)), ax)

@@ -162,7 +162,7 @@ def trust(verdicts: list[dict[str, str]]) -> str:
 def page(root: Path, found: Found) -> str:
     """All of it as Markdown."""
     rigid, compliant, best = found.rigid, found.compliant, cheapest(found.rigid)
-    here, loose = fits.index(best), found.tightened[0]
+    loose = found.tightened[0]
     least, most = limits_of(rigid)
     fewer = np.mean([b.evaluations for b in compliant]) / np.mean([a.evaluations for a in rigid])
     apart = max(abs(float(np.mean(b.impacts) / np.mean(a.impacts)) - 1) for a, b in zip(rigid, compliant, strict=True))

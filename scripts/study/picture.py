@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import slideway
-from pictures.style import as_svg, panels
+from pictures.style import as_svg, axes_of
 from slideway.palette import colours, grey, limit_colour
 from slideway.plot.axes import frame
 
@@ -17,7 +17,7 @@ from .runs import Outcome, fits, pump
 
 def losses(rigid: list[Outcome], compliant: list[Outcome]) -> str:
     """How the energy of impacts is distributed for each fit, and the limit; as SVG."""
-    figure, (ax,) = panels(height=3.6)
+    figure, (ax,) = axes_of(height=3.6)
     frame(ax, "energy lost in impacts, a turn [mJ]", "share of crossheads below")
     for colour, fit, stiff, soft in zip(colours, fits, rigid, compliant, strict=False):
         for of, style, label in ((stiff, "-", fit.name), (soft, ":", None)):
@@ -36,7 +36,7 @@ def losses(rigid: list[Outcome], compliant: list[Outcome]) -> str:
 
 def worn(root: Path) -> str:
     """Side force and wear over the way; how the crosshead leans meanwhile, in its second turn."""
-    figure, (above, below) = panels(2, height=4.6)
+    figure, (above, below) = axes_of(2, height=4.6)
     one = ideal.turn(root, 0.08)
     above.plot(1e3 * one.x, -one.side, color=colours[0], lw=1.4)
     frame(above, "place of the slider's centre, and along the way [mm]", "side force down [N]")
@@ -63,7 +63,7 @@ def worn(root: Path) -> str:
 
 def machines(root: Path, presses: list[Press], carriages: list[Carriage]) -> str:
     """The press's drop over its flywheel, the carriage's lean over the height of its mass."""
-    figure, (left, right) = panels(1, 2, height=3.4)
+    figure, (left, right) = axes_of(1, 2, height=3.4)
     inertia = np.geomspace(presses[0].inertia, presses[-1].inertia, 40)
     left.plot(inertia, 100 * ideal_press(root, inertia), color=grey, lw=1.2, label="closed form")
     for one in presses:

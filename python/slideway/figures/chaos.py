@@ -130,7 +130,7 @@ def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: 
         count = f"{values.size} members" + (f", {missing} failed" if missing else "") if of_column.sum() > 1 else "one member"
         marks.append(Level(mean, "x", f"{name}({plus_minus(mean, half)}) 1/s, {count}", tint, 2, half=half))
     alone = there.sum() == 1
-    return Panel([*marks, Level(0.0, "x")], Axis(f"λ{lowered(exponent)}", "1/s"), Axis("" if alone else "members", names=() if alone else None))
+    return Panel([*marks, Level(0.0, "x")], Axis(f"λ{lowered(exponent)}", "1/s"), Axis("" if alone else "members", ticks={} if alone else None))
 
 
 def _columns(result: xr.Dataset) -> list[tuple[str, np.ndarray]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -19,7 +19,7 @@ class Axis:
     """One of the two axes.
 
     Attributes:
-        names: of the places 0, 1, ... of an axis that has no numbers.
+        ticks: names of places, instead of numbers.
         tight: ends where the data end.
     """
 
@@ -28,13 +28,18 @@ class Axis:
     log: bool = False
     low: float | None = None
     high: float | None = None
-    names: Sequence[str] | None = None
+    ticks: Mapping[float, str] | None = None
     tight: bool = False
 
     @property
     def label(self) -> str:
         """"y [µm]", or the words alone of a number without unit."""
         return f"{self.words} [{self.unit}]" if self.unit else self.words
+
+
+def named(names: Sequence[str]) -> dict[float, str]:
+    """Names of the places 0, 1, ... of an axis."""
+    return dict(enumerate(names))
 
 
 @dataclass(frozen=True)

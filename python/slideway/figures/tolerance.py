@@ -17,7 +17,7 @@ from ..results import holds_all
 from ..scenes import scene
 from ..units import scaled
 from .base import drawn, variable, words_of
-from .marks import Axis, Band, Curve, Level, Mark, Panel, Rows
+from .marks import Axis, Band, Curve, Level, Mark, Panel, Rows, named
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -136,7 +136,7 @@ def sensitivity(result: xr.Dataset, name: str | None = None, component: str | No
         marks.append(Rows(bars, words if len(kinds) == 2 else None, colour, low, high))  # else the axis says it
     what = words_of(name) + (f" [{label}]" if label else "")
     x = Axis(f"{'Sobol index' if len(kinds) == 2 else 'rank correlation'} of {what}")
-    return Panel([*marks, Level(0.0, "x")], x, Axis("", names=[str(key) for key in own["input"].values[order]]))
+    return Panel([*marks, Level(0.0, "x")], x, Axis("", ticks=named([str(key) for key in own["input"].values[order]])))
 
 
 def _place(data: xr.DataArray, wanted: str | None) -> tuple[dict[str, int], str]:

@@ -35,8 +35,9 @@ def draw(panel: Panel, ax: Axes | None) -> Axes:
     for name, side in (("x", panel.x), ("y", panel.y)):
         if side.log:
             ax.set(**{f"{name}scale": "log"})
-        if side.names is not None:
-            ax.set(**{f"{name}ticks": range(len(side.names)), f"{name}ticklabels": side.names})
+        if side.ticks is not None:
+            ax.set(**{f"{name}ticks": list(side.ticks), f"{name}ticklabels": list(side.ticks.values())})
+            ax.tick_params(axis=name, which="minor", length=0, labelsize=0)
         if side.low is not None or side.high is not None:
             ax.set(**{f"{name}lim": (side.low, side.high)})
     if panel.x.tight:
@@ -76,9 +77,11 @@ def _mark(ax: Axes, mark: Mark) -> None:
                    label=mark.label)  # fmt: skip
         case Level():
             across, along = (ax.axvline, ax.axvspan) if mark.of == "x" else (ax.axhline, ax.axhspan)
+            label = _once(ax, mark.label)
             if mark.half > 0:
-                along(mark.value - mark.half, mark.value + mark.half, color=mark.colour, alpha=0.25, lw=0)
-            across(mark.value, color=mark.colour, lw=mark.width, ls=mark.dash, label=_once(ax, mark.label), zorder=1 if mark.dash == ":" else None)
+                along(mark.value - mark.half, mark.value + mark.half, color=mark.colour, alpha=0.25, lw=0, label=None if mark.width else label)
+            if mark.width:
+                across(mark.value, color=mark.colour, lw=mark.width, ls=mark.dash, label=label, zorder=1 if mark.dash == ":" else None)
         case Box():
             ax.add_patch(Rectangle((-mark.x, -mark.y), 2 * mark.x, 2 * mark.y, fill=False, ec=grey, ls="--", label=_once(ax, mark.label)))
         case Density():

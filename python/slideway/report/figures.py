@@ -14,7 +14,7 @@ from slideway.columns import Column, group_of
 from slideway.distribution import ran, whose
 from slideway.figures import chaos, forces, orbits, series, spectra, sweeps, tolerance
 from slideway.figures.base import panel_of, words_of
-from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Mark, Panel, Rows
+from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Mark, Panel, Rows, named
 from slideway.palette import class_colours, colours, limit_colour
 from slideway.sampling import sample_axis, too_coarse
 from slideway.units import lowered, scaled
@@ -319,7 +319,7 @@ def _modes(every: Sequence[Column]) -> Figure | None:
     shares = {name: times[name].mean / total for name in class_colours if name in times}
     bars = [Rows(np.array([100 * share]), f"{name}: {percent(share)}", class_colours[name]) for name, share in shares.items()]
     caption = f"By the stiffest contact at each time; free is flight without any. Mean of {counted(next(iter(times.values())).count, 'member')}."
-    panel = Panel(bars, Axis("share of the time", "%", low=0, high=100), Axis("", names=[""]), stacked=True)
+    panel = Panel(bars, Axis("share of the time", "%", low=0, high=100), Axis("", ticks=named([""])), stacked=True)
     return _of("modes", "Time by contact mode", caption, [("all", panel)], 210)
 
 
@@ -333,5 +333,5 @@ def _balance(terms: Balance, whose: str) -> Figure | None:
     factor, unit = scaled("J", [amount for _, amount, _ in parts])
     bars = [Rows(factor * np.array([max(-amount, 0.0), max(amount, 0.0)]), f"{name}: {joules(abs(amount))}", tint) for name, amount, tint in parts if amount != 0]
     caption = f"Means over {whose}. Both bars are as long as each other, for the residual is what closes the balance."
-    panel = Panel(bars, Axis("per member", unit), Axis("", names=["went to", "came from"]), stacked=True)
+    panel = Panel(bars, Axis("per member", unit), Axis("", ticks=named(["went to", "came from"])), stacked=True)
     return _of("balance", "Balance of energy", caption, [("all", panel)], 250)

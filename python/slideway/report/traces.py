@@ -171,7 +171,7 @@ def _traces(mark: Mark, panel: Panel, edges: list[float]) -> list[Trace]:
             middles, widths = (mark.edges[:-1] + mark.edges[1:]) / 2, np.diff(mark.edges)
             return [{"type": "bar", "x": packed(middles), "width": packed(widths), "y": packed(mark.heights), "marker": marker}]
         case Rows():
-            names = [text(name) for name in panel.y.names or ()]
+            names = [text(name) for name in (panel.y.ticks or {}).values()]
             trace = {"type": "bar", "orientation": "h", "y": names, "x": packed(mark.values), "marker": {"color": colour(mark.colour)}}
             if mark.low is not None and mark.high is not None and np.isfinite([mark.low, mark.high]).any():
                 trace["error_x"] = _interval(mark.values, mark.low, mark.high, "@muted")
