@@ -37,7 +37,7 @@ def draw(panel: Panel, ax: Axes | None) -> Axes:
             ax.set(**{f"{name}scale": "log"})
         if side.ticks is not None:
             ax.set(**{f"{name}ticks": list(side.ticks), f"{name}ticklabels": list(side.ticks.values())})
-            ax.tick_params(axis=name, which="minor", length=0, labelsize=0)
+            (ax.xaxis if name == "x" else ax.yaxis).set_tick_params(which="minor", length=0, labelsize=0)
         if side.low is not None or side.high is not None:
             ax.set(**{f"{name}lim": (side.low, side.high)})
     if panel.x.tight:

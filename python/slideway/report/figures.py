@@ -20,8 +20,7 @@ from slideway.sampling import sample_axis, too_coarse
 from slideway.units import lowered, scaled
 from slideway.way import may_be_misaligned
 
-from .audit import Audit
-from .energy import Balance, joules
+from .energy import Audit, Balance, joules
 from .findings import of_sweep
 from .members import chosen
 from .numbers import counted, number, percent

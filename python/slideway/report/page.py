@@ -19,15 +19,12 @@ from slideway.palette import style_sheet
 from slideway.results import StrPath
 
 from . import animation, energy, poses, sections, statuses
-from .audit import audit as audit_of
 from .figures import figures as figures_of
 from .files import replace
-from .film_section import animation_section
 from .findings import exponent_words, yields
 from .markup import Section, data_block, tag, words
 from .members import chosen
 from .numbers import counted, percent
-from .resolution import Resolution, resolution
 from .traces import Figure, plot
 
 # Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
@@ -87,15 +84,15 @@ def html_of(result: xr.Dataset) -> str:
     result = with_members(result)
     every = columns(result)
     ended = statuses.endings(result)
-    audit = audit_of(result, every)
+    audit = energy.audit(result, every)
     judged = audit.verdict
-    resolved = resolution(result)
+    resolved = slideway.resolution(result)
     film = _film(result)
     figures = figures_of(result, every, {} if isinstance(film, str) else film[0], audit)
     plots = [figure for name, figure in figures.items() if name != "balance"]
     parts = [
         sections.endings_section(result, ended),
-        animation_section(film if isinstance(film, str) else film[1]),
+        animation.animation_section(film if isinstance(film, str) else film[1]),
         sections.energy_section(judged, figures.get("balance")),
         sections.resolution_section(resolved),
         sections.summary_section(result, every),
@@ -134,10 +131,11 @@ def _film(result: xr.Dataset) -> Film | str:
     return seen, animation.frames(result, seen)
 
 
-def _header(result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, resolved: Resolution | None, parts: list[Section]) -> str:
+def _header(result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, resolved: slideway.Resolution | None, parts: list[Section]) -> str:
     cards = [(*statuses.headline(ended), "Members", "endings"), (judged.grade, judged.headline, "Energy", "energy")]
     if resolved is not None:
-        cards.append((resolved.grade, resolved.headline.split(":")[0], "Resolution", "resolution"))
+        grade, headline = sections.RESOLUTIONS.get(resolved.verdict, ("none", resolved.verdict))
+        cards.append((grade, headline.split(":")[0], "Resolution", "resolution"))
     exponents = exponent_words(result) if "status" in result else []
     if exponents:
         cards.append(("none", exponents[0].split(", from")[0], "Chaos", "plots"))

@@ -6,6 +6,7 @@ import math
 
 import xarray as xr
 
+import slideway
 from slideway.columns import Column
 from slideway.units import scaled
 
@@ -14,11 +15,18 @@ from .findings import column_table, exponent_words, yields
 from .markup import Section, table, tag, words
 from .markup import facts as fact_list
 from .numbers import number, percent
-from .resolution import Resolution
 from .sweep import sweep_of
 from .traces import Figure
 
 TEXT = 9  # a column beyond the last: no column of the table holds numbers
+# Grade and headline of each verdict on the resolution.
+RESOLUTIONS = {
+    "resolved": ("good", "Resolved: the integration error is below the study's own intervals"),
+    "error_bounded": ("none", "Integration error bounded: larger than the study's own intervals may be"),
+    "undecided": ("none", "Resolution undecided: too few members ran again, some did not come to their end, or all numbers are 0"),
+    "not_resolved": ("bad", "Not resolved: tighter tolerances say something else"),
+    "not_checked": ("none", "Not checked against tighter tolerances"),
+}
 RESIDUAL = (
     "The residual is E(t) − E(0) − W + D_f + D_d: mechanical energy gained, less the drive's work W, plus what friction and contact "
     "damping took. It is zero for exact physics and exact integration."
@@ -53,12 +61,13 @@ def energy_section(judged: energy.Verdict, balance: Figure | None) -> Section:
     return Section("energy", "Energy audit", body + (figure_element(balance) if balance else ""))
 
 
-def resolution_section(found: Resolution | None) -> Section | None:
-    """Whether tighter tolerances say the same, in the program's words."""
+def resolution_section(found: slideway.Resolution | None) -> Section | None:
+    """Whether tighter tolerances say the same, in the program's words; None where it was not asked (merged shards, earlier versions)."""
     if found is None:
         return None
-    lines = "".join(tag("p", words(line)) for line in found.lines)
-    return Section("resolution", "Resolution", tag("div", tag("strong", words(found.headline)) + lines, class_=f"verdict {found.grade}"))
+    grade, headline = RESOLUTIONS.get(found.verdict, ("none", found.verdict))
+    lines = "".join(tag("p", words(line.strip())) for line in found.summary.splitlines())
+    return Section("resolution", "Resolution", tag("div", tag("strong", words(headline)) + lines, class_=f"verdict {grade}"))
 
 
 def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
