@@ -16,19 +16,6 @@ from ..figures.tolerance import quantiles, sensitivity
 from .explanation import apex_forces
 
 __all__ = [
-    "apex_forces",
-    "bifurcation",
-    "cumulative_area",
-    "divergence",
-    "exponent_histogram",
-    "exponent_history",
-    "exponent_sweep",
-    "force_histogram",
-    "orbit_yz",
-    "poincare",
-    "quantiles",
-    "sensitivity",
-    "spectrum",
-    "time_series",
-    "work_precision",
-]
+    "apex_forces", "bifurcation", "cumulative_area", "divergence", "exponent_histogram", "exponent_history", "exponent_sweep", "force_histogram",
+    "orbit_yz", "poincare", "quantiles", "sensitivity", "spectrum", "time_series", "work_precision",
+]  # fmt: skip

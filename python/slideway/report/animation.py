@@ -67,19 +67,11 @@ def _member(pose: Poses, label: str) -> dict[str, Any]:
         extra["crank"] = packed(np.mod(pose.crank[kept], 2 * np.pi))
         extra["links"] = [length * 1e3 for length in pose.links]
     return {
-        "label": label,
-        "count": len(kept),
-        "of": count,
-        "length": joint.length * 1e3,
-        "width": joint.width * 1e3,
-        "depth": joint.depth * 1e3,
-        "gaps": [joint.gap_y * 1e3, joint.gap_z * 1e3],
-        "time": packed(pose.time[kept], "f8"),
-        **{name: packed(values) for name, values in {**lengths, **states}.items()},
-        "touching": packed(bits, "u2"),
-        "modes": packed(pose.modes[kept].ravel(), "u1"),
-        **extra,
-    }
+        "label": label, "count": len(kept), "of": count, "length": joint.length * 1e3, "width": joint.width * 1e3, "depth": joint.depth * 1e3,
+        "gaps": [joint.gap_y * 1e3, joint.gap_z * 1e3], "time": packed(pose.time[kept], "f8"),
+        **{name: packed(values) for name, values in {**lengths, **states}.items()}, "touching": packed(bits, "u2"),
+        "modes": packed(pose.modes[kept].ravel(), "u1"), **extra,
+    }  # fmt: skip
 
 
 def animation_section(film: dict[str, Any] | str) -> Section:

@@ -46,20 +46,6 @@ def test_distribution_says_at_a_limit_what_the_file_says(page_of: Pages, result_
     assert "of 64 members that ran meet all limits" in page_of("correlations").read.text
 
 
-@pytest.mark.slow
-def test_distribution_of_a_radial_design_is_that_of_its_draws(page_of: Pages, result_of: Results) -> None:
-    with result_of("tolerance") as result, result.slideway.yields as yields, result.slideway.statistics as statistics:
-        count, share = int(statistics["peak_normal_force_count"]), 100 * float(yields["share"][0])
-        assert count < result.sizes["member"] / 4
-    figure = variant(page_of("tolerance"), "quantiles")
-    curve, dots = figure["data"]
-    x, y = unpacked(curve["x"]), unpacked(curve["y"])
-    assert (x.size, y[-1]) == (count + 1, pytest.approx(100))
-    assert y[np.searchsorted(x, 1000, side="right") - 1] == pytest.approx(share)
-    for value, part in zip(unpacked(dots["x"]), unpacked(dots["y"]), strict=True):
-        assert y[np.searchsorted(x, value * (1 + 1e-6), side="right") - 1] == pytest.approx(part, abs=101 / count)
-
-
 def test_long_distributions_are_exact_at_their_limits() -> None:
     values = np.random.default_rng(0).lognormal(size=40_001)
     edge = float(np.sort(values)[12_345]) * (1 + 1e-12)
