@@ -118,7 +118,8 @@ def tolerance(root: Path) -> str:
         force = run(root, "scenes/tolerance_0.1mm.toml", law, study__base=128)["peak_normal_force"].values
         shares = 100 * np.histogram(force, edges)[0] / force.size
         marks = [Bars(edges, shares, None, law_colours[law], 0.85), Level(1000, "x", "limit 1 kN", limit_colour, 1.8, "--")]
-        across = Axis("peak normal force" if panels else "", "N" if panels else "", log=True, ticks={value: f"{value}" for value in (300, 500, 1000, 2000, 5000)})
+        ticks = {value: f"{value}" for value in (300, 500, 1000, 2000, 5000)}
+        across = Axis("peak normal force" if panels else "", "N" if panels else "", log=True, ticks=ticks)
         met = np.mean(force <= 1000.0)
         panels.append(Panel(marks, across, Axis("members", "%", low=0, high=1.25 * shares.max()), f"{words}: {met:.0%} meet the limit"))
     return picture(panels, height=4.8, sharex=True)

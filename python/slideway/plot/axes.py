@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import NullLocator
 
 from ..arguments import shown
 from ..errors import SlidewayError
@@ -37,7 +38,7 @@ def draw(panel: Panel, ax: Axes | None) -> Axes:
             ax.set(**{f"{name}scale": "log"})
         if side.ticks is not None:
             ax.set(**{f"{name}ticks": list(side.ticks), f"{name}ticklabels": list(side.ticks.values())})
-            (ax.xaxis if name == "x" else ax.yaxis).set_tick_params(which="minor", length=0, labelsize=0)
+            (ax.xaxis if name == "x" else ax.yaxis).set_minor_locator(NullLocator())
         if side.low is not None or side.high is not None:
             ax.set(**{f"{name}lim": (side.low, side.high)})
     if panel.x.tight:
