@@ -126,9 +126,8 @@ def members_over(x: Array, rows: Array, members: Sequence[int], failed: int, coa
     """
     if len(members) <= most_lines:
         style: dict[str, Any] = {"width": 1.0} if coarse is None else {"dash": "", "marker": ".", "size": 3.0}
-        lines: list[Mark] = [
-            Curve(x, row, f"member {number}" if len(members) > 1 else None, colour, **style) for number, row, colour in zip(members, rows, colours, strict=False)
-        ]
+        names = [f"member {number}" if len(members) > 1 else None for number in members]
+        lines: list[Mark] = [Curve(x, row, name, colour, **style) for name, row, colour in zip(names, rows, colours, strict=False)]
         return lines if coarse is None else [*lines, Note(coarse)]
     levels = np.full((5, x.size), np.nan)
     some = np.isfinite(rows).any(axis=0)

@@ -1,4 +1,4 @@
-"""Series over the time."""
+"""Series over the time: themselves, their spectra, and how often which force acts."""
 
 from __future__ import annotations
 
@@ -7,19 +7,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from ..arguments import positive, whole
 from ..errors import SlidewayError
 from ..ideal import ideal
-from ..palette import grey
+from ..palette import class_colours, colours, grey
 from ..sampling import coarse_words, sample_axis, too_coarse
 from ..scenes import scene
-from ..signals import running_integral
-from ..units import scaled
+from ..signals import amplitude_spectrum, even_step, running_integral
+from ..units import scaled, spelled
 from ..way import across, may_be_misaligned, mean_clearance
-from .base import Members, chosen, drawn, failures, members_over, series_of, words_of
-from .marks import Axis, Curve, Level, Mark, Panel
+from .base import Members, chosen, drawn, failures, kind_of, members_over, most_lines, series_of, variable, words_of
+from .marks import Axis, Band, Bars, Curve, Level, Mark, Note, Panel
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+standard_gravity = 9.80665  # m/s²
+_classes = ("point", "line", "surface")
 
 
 @drawn
@@ -117,3 +121,110 @@ def _clearance(result: xr.Dataset, members: list[int], name: str) -> float | Non
         return None
     first, last = (mean_clearance(scene(result, m).get("joint", {}), name) for m in (members[0], members[-1]))
     return first if first == last else None
+
+
+@drawn
+def spectrum(
+    result: xr.Dataset, name: str = "acceleration_top", member: Members = None, ax: Axes | None = None, *, reference: float | None = None, span: float = 100.0
+) -> Panel:
+    """One-sided amplitude spectrum with a Hann window, in decibels (Fig. 5 of Qian et al. 2020).
+
+    20 log10(amplitude / reference). Up to eight members are lines; of more the root mean square of their amplitudes is drawn,
+    within the band of 90 % of them. Members that did not finish are left out.
+
+    Args:
+        name: of the series.
+        member: number of a member, or several; left out: all.
+        reference: in the unit of the series; left out: 1 g of an acceleration, else 1 of the unit.
+        span: what lies so many decibels below the peak is cut off.
+
+    Raises:
+        SlidewayError: there is no such series, or no member has all samples.
+
+    >>> slideway.plot.spectrum(slideway.example(), "y", member=0).get_xlabel()
+    'frequency [Hz]'
+    """
+    data = series_of(result, name)
+    if reference is not None:
+        positive(reference, "reference")
+    positive(span, "span")
+    units = str(data.attrs.get("units", "1"))
+    members = chosen(result, member)
+    rows = data.sel(member=members).values
+    whole = np.isfinite(rows).all(axis=1)
+    if not whole.any():
+        raise SlidewayError("none of these members has all samples, for they failed; see slideway.statuses(result)")
+    members = [number for number, complete in zip(members, whole, strict=True) if complete]
+    frequency, amplitude = amplitude_spectrum(rows[whole], even_step(result["time"].values))
+    of_gravity = reference is None and units == "m s-2"
+    level = standard_gravity if of_gravity else 1.0 if reference is None else reference
+    against = "g" if of_gravity else f"{level:g} {spelled(units)}".strip()
+
+    def decibels(amplitudes: np.ndarray) -> np.ndarray:
+        return np.asarray(20 * np.log10(np.maximum(amplitudes, np.finfo(float).tiny) / level))
+
+    factor, hertz = scaled("Hz", frequency)
+    x = factor * frequency
+    if len(members) <= most_lines:
+        shown = decibels(amplitude)
+        names = [f"member {number}" if len(members) > 1 else None for number in members]
+        marks: list[Mark] = [Curve(x, line, name, colour, width=0.8) for name, line, colour in zip(names, shown, colours, strict=False)]
+    else:
+        middle = decibels(np.sqrt(np.mean(amplitude**2, axis=0)))
+        low, high = shown = decibels(np.quantile(amplitude, (0.05, 0.95), axis=0))
+        marks = [Band(x, low, high, "90 % of the members"), Curve(x, middle, f"root mean square of {len(members)} members", width=1)]
+    # Single zeros of a spectrum would stretch the axis.
+    peak, floor = float(shown.max()), float(np.quantile(shown, 0.01))
+    return Panel(marks, Axis("frequency", hertz, tight=True), Axis(words_of(name), f"dB re {against}", low=max(peak - span, floor - 5), high=peak + 5))
+
+
+@drawn
+def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, bins: int = 40) -> Panel:
+    """How often which normal force acts, by the class of the contact mode (Fig. 11 of Qian et al. 2020).
+
+    By the hardest contact of the moment: a surface, else a line, else a point. Both axes are logarithmic, for the rare contacts of
+    lines and surfaces have the largest forces. All shares, those of the legend too, are of all samples.
+
+    Args:
+        member: number of a member, or several; left out: all.
+        bins: of the forces.
+
+    Raises:
+        SlidewayError: normal_force, surfaces, lines or points are not in the result, or nothing touches.
+
+    >>> slideway.plot.force_histogram(slideway.example()).get_xlabel()
+    'normal force [N]'
+    """
+    # Corners between two walls touch at points or with a face.
+    lines = () if kind_of(result) == "planar_slider_crank" else ("lines",)
+    missing = [name for name in ("normal_force", "surfaces", *lines, "points") if name not in result]
+    if missing and "sample" in result.dims:
+        listed = ", ".join(f'"{name}"' for name in missing)
+        raise SlidewayError(f"this result lacks {listed}; add to study.quantities, with study.samples_per_revolution = 200 or more")
+    members, bins = chosen(result, member), whole(bins, "bins", 1, 10000)
+
+    def taken(name: str) -> np.ndarray:
+        return np.asarray(variable(result, name).sel(member=members).values, dtype=float).ravel()
+
+    force = taken("normal_force")
+    there = np.isfinite(force)
+    line = taken("lines") > 0 if lines else np.zeros_like(there)
+    surface, point = taken("surfaces") > 0, taken("points") > 0
+    of_class = {"surface": surface, "line": line & ~surface, "point": point & ~line & ~surface}
+    touching = surface | line | point
+    pushing = touching & (force > 0)  # damping takes the force of some contacts that open
+    if not pushing.any():
+        raise SlidewayError("the slider touches nothing at any sample; run it longer or with more samples")
+    factor, unit = scaled(str(result["normal_force"].attrs["units"]), force)
+    # The thousandth of the samples that grazes with least force would stretch the axis over many decades, and is left out.
+    low, high = np.quantile(force[pushing], (0.001, 1.0))
+    edges = factor * np.geomspace(max(low, 1e-6 * high), high * 1.0001, bins + 1)
+    least = 100 / there.sum()  # one sample
+    marks: list[Mark] = []
+    for name in _classes:
+        counts = np.histogram(factor * force[of_class[name]], edges)[0] * least
+        share = of_class[name].sum() / there.sum()
+        heights = np.maximum(counts, 0.5 * least)
+        marks.append(Bars(edges, heights, f"{name}, {share:.2%} of the time", class_colours[name], base=0.5 * least, outlined=True))
+    marks.append(Note(f"free flight, {1 - touching.sum() / there.sum():.2%}"))
+    return Panel(marks, Axis("normal force", unit, log=True), Axis("share of all samples", "%", log=True, low=0.5 * least))

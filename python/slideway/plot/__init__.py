@@ -6,12 +6,9 @@
 """
 
 from ..figures.chaos import divergence, exponent_histogram, exponent_history
-from ..figures.forces import force_histogram
-from ..figures.orbits import orbit_yz, poincare
+from ..figures.orbits import bifurcation, exponent_sweep, orbit_yz, poincare
 from ..figures.precision import work_precision
-from ..figures.series import cumulative_area, time_series
-from ..figures.spectra import spectrum
-from ..figures.sweeps import bifurcation, exponent_sweep
+from ..figures.series import cumulative_area, force_histogram, spectrum, time_series
 from ..figures.tolerance import quantiles, sensitivity
 from .explanation import apex_forces
 

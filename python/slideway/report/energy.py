@@ -12,8 +12,8 @@ from slideway.columns import Column, column, columns
 from slideway.ideal import drive_kind
 from slideway.way import mean_clearance, play
 
+from .findings import by_column, sweep_of
 from .numbers import amount, counted, percent
-from .sweep import by_column, sweep_of
 
 CLEAN = 1e-3  # of the work: a residual that no conclusion of a study depends on
 SMALL = 1e-2  # one that a few members may have

@@ -12,7 +12,7 @@ import xarray as xr
 import slideway
 from slideway.columns import Column, group_of
 from slideway.distribution import ran, whose
-from slideway.figures import chaos, forces, orbits, series, spectra, sweeps, tolerance
+from slideway.figures import chaos, orbits, series, tolerance
 from slideway.figures.base import panel_of, words_of
 from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Mark, Panel, Rows, named
 from slideway.palette import class_colours, colours, limit_colour
@@ -21,11 +21,10 @@ from slideway.units import lowered, scaled
 from slideway.way import may_be_misaligned
 
 from .energy import Audit, Balance, joules
-from .findings import of_sweep
+from .findings import Sweep, of_sweep, sweep_of
 from .members import chosen
 from .numbers import counted, number, percent
 from .poses import Poses
-from .sweep import Sweep, sweep_of
 from .traces import MOST_POINTS, Figure, Variant
 
 STATES = (("y", "z"), ("roll", "yaw", "pitch"))
@@ -55,7 +54,10 @@ def figures(result: xr.Dataset, every: Sequence[Column], seen: dict[int, Poses],
     return {figure.name: figure for figure in made if figure}
 
 
-def _of(name: str, title: str, caption: str, variants: Iterable[tuple[str, Panel | Sequence[Panel] | None]], height: int = 380, choice: str = "Show") -> Figure | None:
+Variants = Iterable[tuple[str, Panel | Sequence[Panel] | None]]
+
+
+def _of(name: str, title: str, caption: str, variants: Variants, height: int = 380, choice: str = "Show") -> Figure | None:
     """A figure of the variants that there are."""
     kept = [Variant(label, [panels] if isinstance(panels, Panel) else panels) for label, panels in variants if panels]
     return Figure(name, title, caption, kept, height, choice) if kept else None
@@ -143,7 +145,7 @@ def _forces(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
                 row[pose.samples] = pose.modes[:, k]
             some = some.assign({name: (("member", "sample"), touching)})
     caption = f"Of all samples of {counted(some.sizes['member'], 'member')}, by the hardest contact of each."
-    return _of("forces", "Contact forces by mode", caption, [("all", panel_of(forces.force_histogram, some))])
+    return _of("forces", "Contact forces by mode", caption, [("all", panel_of(series.force_histogram, some))])
 
 
 def _spectra(result: xr.Dataset) -> Figure | None:
@@ -151,7 +153,7 @@ def _spectra(result: xr.Dataset) -> Figure | None:
     names = [name for name in SENSORS if name in result and "sample" in result[name].dims]
 
     def panel(member: int) -> Panel | None:
-        found = {name: one for name in names if (one := panel_of(spectra.spectrum, result, name, member, reference=spectra.standard_gravity))}
+        found = {name: one for name in names if (one := panel_of(series.spectrum, result, name, member, reference=series.standard_gravity))}
         if not found:
             return None
         curves = [(name, mark) for name, one in found.items() for mark in one.marks if isinstance(mark, Curve)]
@@ -166,9 +168,9 @@ def _spectra(result: xr.Dataset) -> Figure | None:
 
 def _bifurcation(result: xr.Dataset, sweep: Sweep) -> Figure | None:
     """Sections and exponents over the parameter of a sweep."""
-    below = panel_of(sweeps.exponent_sweep, result)
+    below = panel_of(orbits.exponent_sweep, result)
     lower = [below] if below else []
-    above = {name: panel_of(sweeps.bifurcation, result, name) for name in ("y", "z", "roll", "yaw", "pitch", "vy", "vz")}
+    above = {name: panel_of(orbits.bifurcation, result, name) for name in ("y", "z", "roll", "yaw", "pitch", "vy", "vz")}
     variants: list[tuple[str, Sequence[Panel]]] = [(name, [panel, *lower]) for name, panel in above.items() if panel]
     caption = f"{counted(len(sweep.columns), 'column')}, the states of all members at their sections."
     if below:
@@ -243,7 +245,7 @@ def _quantities(result: xr.Dataset, sweep: Sweep) -> Figure | None:
         factor, named = scaled(unit, values)
         there = np.isfinite(values)
         members = Cloud(across * sweep.values[there], factor * values[there], "member", opacity=0.6, size=8)
-        return Panel([members, sweeps.medians(across, sweep.values, factor * values)], Axis(sweep.key, x_unit), Axis(words_of(name), named))
+        return Panel([members, orbits.medians(across, sweep.values, factor * values)], Axis(sweep.key, x_unit), Axis(words_of(name), named))
 
     caption = f"Of the members that finished, and the median of each of {counted(len(sweep.columns), 'column')}."
     variants = ((name, panel(name, unit, values)) for name, unit, values in of_sweep(result))
@@ -330,7 +332,8 @@ def _balance(terms: Balance, whose: str) -> Figure | None:
     parts = [("drive", terms.work, colours[0]), ("made by law and method", terms.residual, limit_colour), ("friction", -terms.friction, colours[1]),
              ("contact damping", -terms.damping, colours[2]), ("motion, height, springs", -kept, colours[3])]  # fmt: skip
     factor, unit = scaled("J", [amount for _, amount, _ in parts])
-    bars = [Rows(factor * np.array([max(-amount, 0.0), max(amount, 0.0)]), f"{name}: {joules(abs(amount))}", tint) for name, amount, tint in parts if amount != 0]
+    bars = [Rows(factor * np.array([max(-amount, 0.0), max(amount, 0.0)]), f"{name}: {joules(abs(amount))}", tint)
+            for name, amount, tint in parts if amount != 0]  # fmt: skip
     caption = f"Means over {whose}. Both bars are as long as each other, for the residual is what closes the balance."
     panel = Panel(bars, Axis("per member", unit), Axis("", ticks=named(["went to", "came from"])), stacked=True)
     return _of("balance", "Balance of energy", caption, [("all", panel)], 250)

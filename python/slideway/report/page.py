@@ -131,7 +131,9 @@ def _film(result: xr.Dataset) -> Film | str:
     return seen, animation.frames(result, seen)
 
 
-def _header(result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, resolved: slideway.Resolution | None, parts: list[Section]) -> str:
+def _header(
+    result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, resolved: slideway.Resolution | None, parts: list[Section]
+) -> str:
     cards = [(*statuses.headline(ended), "Members", "endings"), (judged.grade, judged.headline, "Energy", "energy")]
     if resolved is not None:
         grade, headline = sections.RESOLUTIONS.get(resolved.verdict, ("none", resolved.verdict))

@@ -11,11 +11,10 @@ from slideway.columns import Column
 from slideway.units import scaled
 
 from . import energy, facts, statuses
-from .findings import column_table, exponent_words, yields
+from .findings import column_table, exponent_words, sweep_of, yields
 from .markup import Section, table, tag, words
 from .markup import facts as fact_list
 from .numbers import number, percent
-from .sweep import sweep_of
 from .traces import Figure
 
 TEXT = 9  # a column beyond the last: no column of the table holds numbers

@@ -210,12 +210,14 @@ def _shapes(mark: Level | Box, row: int) -> tuple[list[dict[str, Any]], list[dic
         return [{"type": "rect", "x0": -mark.x, "x1": mark.x, "y0": -mark.y, "y1": mark.y, "line": line}], []
     line = {"color": colour(mark.colour), "dash": _dashes[mark.dash], "width": mark.width}
     if mark.of == "y":
-        return [{"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": f"y{row}" if row > 1 else "y", "y0": mark.value, "y1": mark.value, "line": line}], []
-    across = {"yref": "paper", "y0": 0, "y1": 1}
-    shapes: list[dict[str, Any]] = [{"type": "line", "x0": mark.value, "x1": mark.value, **across, "line": line}]
+        across = {"xref": "paper", "x0": 0, "x1": 1, "yref": f"y{row}" if row > 1 else "y"}
+        return [{"type": "line", **across, "y0": mark.value, "y1": mark.value, "line": line}], []
+    up = {"yref": "paper", "y0": 0, "y1": 1}
+    shapes: list[dict[str, Any]] = [{"type": "line", "x0": mark.value, "x1": mark.value, **up, "line": line}]
     if mark.half > 0:
-        shapes.append({"type": "rect", "x0": mark.value - mark.half, "x1": mark.value + mark.half, **across, "line": {"width": 0},
+        shapes.append({"type": "rect", "x0": mark.value - mark.half, "x1": mark.value + mark.half, **up, "line": {"width": 0},
                        "fillcolor": colour(mark.colour, 0.25)})  # fmt: skip
     if mark.label is None:
         return shapes, []
-    return shapes, [{"x": mark.value, "y": 1, "yref": "paper", "yanchor": "bottom", "text": text(mark.label), "showarrow": False, "font": {"color": colour(mark.colour)}}]
+    return shapes, [{"x": mark.value, "y": 1, "yref": "paper", "yanchor": "bottom", "text": text(mark.label), "showarrow": False,
+                     "font": {"color": colour(mark.colour)}}]  # fmt: skip
