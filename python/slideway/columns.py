@@ -110,19 +110,10 @@ def _of_members(name: str, meaning: str, unit: str, values: Array) -> Column:
     there = values[np.isfinite(values)]
     none = len(there) == 0
     return Column(
-        name=name,
-        meaning=meaning,
-        unit=unit,
-        count=len(there),
-        mean=np.nan if none else float(there.mean()),
-        sd=float(there.std(ddof=1)) if len(there) > 1 else np.nan,
-        low=np.nan if none else float(there.min()),
-        high=np.nan if none else float(there.max()),
-        quantiles={} if none else dict(zip(SHOWN, np.quantile(there, SHOWN).tolist(), strict=True)),
-        quantile_intervals={},
-        values=there,
-        histogram=None,
-    )
+        name=name, meaning=meaning, unit=unit, count=len(there), mean=np.nan if none else float(there.mean()),
+        sd=float(there.std(ddof=1)) if len(there) > 1 else np.nan, low=np.nan if none else float(there.min()), high=np.nan if none else float(there.max()),
+        quantiles={} if none else dict(zip(SHOWN, np.quantile(there, SHOWN).tolist(), strict=True)), quantile_intervals={}, values=there, histogram=None,
+    )  # fmt: skip
 
 
 def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str, ended: NDArray[np.bool_]) -> Iterator[Column]:
@@ -139,16 +130,10 @@ def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str, ende
         bounds = component[f"{name}_quantile_interval"].values
         has_bounds = np.isfinite(bounds).any()
         yield Column(
-            name=full,
-            meaning=str(mean.attrs.get("long_name", "")).removeprefix("mean: "),
-            unit=str(mean.attrs.get("units", "1")),
-            count=int(component[f"{name}_count"]),
-            mean=float(component[f"{name}_mean"]),
-            sd=float(component[f"{name}_sd"]),
-            low=float(component[f"{name}_min"]),
-            high=float(component[f"{name}_max"]),
+            name=full, meaning=str(mean.attrs.get("long_name", "")).removeprefix("mean: "), unit=str(mean.attrs.get("units", "1")),
+            count=int(component[f"{name}_count"]), mean=float(component[f"{name}_mean"]), sd=float(component[f"{name}_sd"]),
+            low=float(component[f"{name}_min"]), high=float(component[f"{name}_max"]),
             quantiles=dict(zip(probabilities, component[f"{name}_quantile"].values.tolist(), strict=True)),
             quantile_intervals=dict(zip(probabilities, map(tuple, bounds.tolist()), strict=True)) if has_bounds else {},
-            values=members[full][ended] if full in members else None,
-            histogram=Histogram(edges, counts) if len(edges) > 1 else None,
-        )
+            values=members[full][ended] if full in members else None, histogram=Histogram(edges, counts) if len(edges) > 1 else None,
+        )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,6 @@ from slideway.results import StrPath
 
 from . import animation, energy, poses, sections, statuses
 from .figures import figures as figures_of
-from .files import replace
 from .findings import exponent_words, yields
 from .markup import Section, data_block, tag, words
 from .members import chosen
@@ -77,6 +77,28 @@ def _may_replace(path: Path) -> bool:
     with open(path, encoding="utf-8", errors="replace") as file:
         head = file.read(1024)
     return not head or GENERATOR in head
+
+
+def replace(path: Path, text: str) -> None:
+    """Puts a text in a file that others see old or new, never in part; its unfinished name is this call's own."""
+    descriptor, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+    try:
+        with open(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(part, _usual_mode(path))
+        os.replace(part, path)
+    except BaseException:
+        os.unlink(part)
+        raise
+
+
+def _usual_mode(path: Path) -> int:
+    """Permissions of the file as it is, or of any new one: those of a temporary file are for its owner alone."""
+    if path.exists():
+        return path.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
 
 
 def html_of(result: xr.Dataset) -> str:

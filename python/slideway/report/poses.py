@@ -102,20 +102,9 @@ def poses(result: xr.Dataset, member: int) -> Poses:
         attitude = way.frame(scene)[1].T @ attitude
     touching = contact.spatial_depths(place[:, 1], place[:, 2], attitude, *_sizes(joint)) > 0
     return Poses(
-        joint=joint,
-        samples=kept,
-        time=time,
-        y=place[:, 1],
-        z=place[:, 2],
-        roll=attitude[:, 2, 1],
-        yaw=attitude[:, 0, 2],
-        pitch=attitude[:, 1, 0],
-        touching=touching,
-        modes=contact.spatial_modes(touching),
-        x=x,
-        crank=crank,
-        links=links,
-    )
+        joint=joint, samples=kept, time=time, y=place[:, 1], z=place[:, 2], roll=attitude[:, 2, 1], yaw=attitude[:, 0, 2], pitch=attitude[:, 1, 0],
+        touching=touching, modes=contact.spatial_modes(touching), x=x, crank=crank, links=links,
+    )  # fmt: skip
 
 
 def _sizes(joint: Joint) -> tuple[float, float, float, float, float]:

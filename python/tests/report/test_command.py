@@ -53,7 +53,7 @@ def test_a_page_that_cannot_be_put_in_place_leaves_nothing(result_of: Callable[[
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("slideway.report.files.os.replace", full)
+    monkeypatch.setattr("slideway.report.page.os.replace", full)
     with result_of("poincare") as result, pytest.raises(slideway.SlidewayError, match="cannot write the report: No space left"):
         report.write(result, tmp_path / "p.html")
     assert list(tmp_path.iterdir()) == []
