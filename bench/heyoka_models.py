@@ -118,11 +118,7 @@ class Lorenz:
         self._start = np.array([members[name] for name in "xyz"])
         self.found = np.empty_like(self._start)
         self._batch = hy.taylor_adaptive_batch(
-            [(x, sigma * (y - x)), (y, x * (hy.par[0] - z) - y), (z, x * y - beta * z)],
-            np.ones((3, lanes)),
-            pars=np.ones((1, lanes)),
-            tol=tolerance,
-            **options,
+            [(x, sigma * (y - x)), (y, x * (hy.par[0] - z) - y), (z, x * y - beta * z)], np.ones((3, lanes)), pars=np.ones((1, lanes)), tol=tolerance, **options
         )
 
     def run(self) -> None:

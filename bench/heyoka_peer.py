@@ -44,28 +44,12 @@ class Problem:
 
 problems = [
     Problem("lorenz", "Lorenz, 5 units of time", "auto,dop853,dopri5", {"heyoka": Lorenz}, (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)),
-    Problem(
-        "flight",
-        "Free slider, tumbling in flight, 0.1 s",
-        "dop853,dopri5",
-        {"heyoka": FreeSlider, "heyoka, which looks for touches": WatchedFlight},
-        (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
-    ),
-    Problem(
-        "springs",
-        "Free slider, rattling on linear springs, 5 ms",
-        "auto,verner65,dop853",
-        {"heyoka": Springs},
-        (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10),
-    ),
-    Problem(
-        "bouncing",
-        "A mass bouncing between two linear springs, 20 ms",
-        "dop853,verner65,dopri5",
-        {"heyoka": Bouncing},
-        (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12),
-    ),
-]
+    Problem("flight", "Free slider, tumbling in flight, 0.1 s", "dop853,dopri5",
+            {"heyoka": FreeSlider, "heyoka, which looks for touches": WatchedFlight}, (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13)),
+    Problem("springs", "Free slider, rattling on linear springs, 5 ms", "auto,verner65,dop853", {"heyoka": Springs}, (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)),
+    Problem("bouncing", "A mass bouncing between two linear springs, 20 ms", "dop853,verner65,dopri5",
+            {"heyoka": Bouncing}, (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12)),
+]  # fmt: skip
 
 
 @dataclass
@@ -234,7 +218,10 @@ by straight lines in the logarithms; where the coarsest tolerance does better, i
     if arguments.problem in "relief_valve":
         page, of_valves = valves(arguments.program, arguments.rounds)
         table += of_valves
-        text += "\nRelief valve, events a second:\n\n| heyoka, tolerance | error | events/s | slideway with no larger error | events/s | times |\n|---|---|---|---|---|---|\n" + page
+        text += (
+            "\nRelief valve, events a second:\n\n| heyoka, tolerance | error | events/s | slideway with no larger error | events/s | times |\n|---|---|---|---|---|---|\n"
+            + page
+        )
     if arguments.output:
         arguments.output.with_suffix(".md").write_text(text)
         arguments.output.with_suffix(".csv").write_text(table)

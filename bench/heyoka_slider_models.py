@@ -45,19 +45,10 @@ class FreeSlider:
         force, torque = self._forces()
         pitch_rate = (wy * hy.sin(roll) + wz * hy.cos(roll)) / hy.cos(yaw)
         rates = [
-            vy,
-            vz,
-            force[1] / mass - gravity,
-            force[2] / mass,
-            wx + pitch_rate * hy.sin(yaw),
-            wy * hy.cos(roll) - wz * hy.sin(roll),
-            pitch_rate,
-            (iy - iz) / ix * wy * wz + torque[0] / ix,
-            (iz - ix) / iy * wz * wx + torque[1] / iy,
-            (ix - iy) / iz * wx * wy + torque[2] / iz,
-            vx,
+            vy, vz, force[1] / mass - gravity, force[2] / mass, wx + pitch_rate * hy.sin(yaw), wy * hy.cos(roll) - wz * hy.sin(roll), pitch_rate,
+            (iy - iz) / ix * wy * wz + torque[0] / ix, (iz - ix) / iy * wz * wx + torque[1] / iy, (ix - iy) / iz * wx * wy + torque[2] / iz, vx,
             force[0] / mass,
-        ]
+        ]  # fmt: skip
         return [(self._numbers[name], hy.expression(rate / unit)) for name, rate, (unit,) in zip(state, rates, self._units, strict=True)]
 
     def run(self) -> None:

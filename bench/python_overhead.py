@@ -14,7 +14,6 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import slideway
 from scipy.optimize import minimize_scalar
 

@@ -33,10 +33,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(escaped(str(error)), file=sys.stderr)
         return FILE_TROUBLE
     except ModuleNotFoundError as error:
-        print(
-            f"slideway: the Python package {error.name} is missing; install it with {sys.executable} -m pip install {error.name}",
-            file=sys.stderr,
-        )
+        print(f"slideway: the Python package {error.name} is missing; install it with {sys.executable} -m pip install {error.name}", file=sys.stderr)
         return FILE_TROUBLE
     return 0
 

@@ -19,10 +19,5 @@ def student_t(freedom: int) -> float:
     if freedom == 2:
         return 0.95 * math.sqrt(2 / (1 - 0.95**2))
     z = 1.959963984540054
-    terms = (
-        z,
-        (z**3 + z) / 4,
-        (5 * z**5 + 16 * z**3 + 3 * z) / 96,
-        (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384,
-    )
+    terms = (z, (z**3 + z) / 4, (5 * z**5 + 16 * z**3 + 3 * z) / 96, (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384)
     return float(sum(term / freedom**power for power, term in enumerate(terms)))

@@ -23,10 +23,7 @@ def statuses(result: xr.Dataset) -> xr.DataArray:
     array(['finished', 'finished', 'finished'], dtype='<U15')
     """
     if "status" not in dataset(result).data_vars:
-        raise SlidewayError(
-            "this result holds no members, for its scene says study.store = \"statistics\"; its group statistics counts how "
-            "they ended"
-        )
+        raise SlidewayError('this result holds no members, for its scene says study.store = "statistics"; its group statistics counts how they ended')
     status = result["status"]
     if not {"flag_meanings", "flag_values"} <= status.attrs.keys():
         raise SlidewayError("the statuses have lost their meanings; keep the attributes of what slideway.open returned")

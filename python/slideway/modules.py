@@ -33,11 +33,7 @@ class Module:
 
 
 def compile(  # noqa: A001 (slideway.compile is named as the program's command)
-    header: StrPath,
-    output: StrPath | None = None,
-    *,
-    isa: str | Sequence[str] | None = None,
-    program: StrPath | None = None,
+    header: StrPath, output: StrPath | None = None, *, isa: str | Sequence[str] | None = None, program: StrPath | None = None
 ) -> list[Module]:
     """Compiles a header with a contact law, a mechanism or both, so that scenes know them by name.
 

@@ -8,6 +8,10 @@ class_colours = {"free": "#8b96a2", "point": "#e0a100", "line": "#d55e00", "surf
 limit_colour = "#b3261e"
 grey = "#616a75"  # what is there for comparison: the ideal, the clearance
 
+# What pages call them, where they have others for readers who like the dark.
+names_of_colours = {colour: f"c{number}" for number, colour in enumerate(colours[:4], start=1)} | {colour: name for name, colour in class_colours.items()}
+names_of_colours |= {limit_colour: "bad", grey: "muted"}
+
 
 def style_sheet() -> str:
     """The colours as variables of a page's style; its dark ones come after them.
@@ -15,6 +19,4 @@ def style_sheet() -> str:
     >>> style_sheet()[:24]
     ':root { --c1: #0b6bb8; -'
     """
-    named = {f"c{number}": colour for number, colour in enumerate(colours[:4], start=1)} | class_colours
-    named |= {"bad": limit_colour, "muted": grey}
-    return ":root { " + " ".join(f"--{name}: {colour};" for name, colour in named.items()) + " }\n"
+    return ":root { " + " ".join(f"--{name}: {colour};" for colour, name in names_of_colours.items()) + " }\n"

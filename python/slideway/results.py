@@ -28,12 +28,7 @@ _checked: dict[str, tuple[int, ...]] = {}  # files that the program found intact
 
 @one_line
 def open(  # noqa: A001
-    path: StrPath,
-    group: str | None = None,
-    *,
-    check: bool = True,
-    variables: Sequence[str] | None = None,
-    members: tuple[int, int] | None = None,
+    path: StrPath, group: str | None = None, *, check: bool = True, variables: Sequence[str] | None = None, members: tuple[int, int] | None = None
 ) -> xr.Dataset:
     """Open a result file of slideway, or one of its groups. Any thread may call this.
 

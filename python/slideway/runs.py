@@ -167,12 +167,7 @@ def _in_memory(
 
 
 def _options(
-    threads: int | None,
-    backend: str | None,
-    isa: str | None,
-    max_hours: float | None,
-    max_failures: int | str | None,
-    members: int | tuple[int, int] | None,
+    threads: int | None, backend: str | None, isa: str | None, max_hours: float | None, max_failures: int | str | None, members: int | tuple[int, int] | None
 ) -> list[str]:
     """The options of the command line for arguments that Python can tell to be wrong, as their types."""
     given: dict[str, str] = {}

@@ -36,11 +36,7 @@ def sections(result: xr.Dataset, member: int | None = None) -> xr.Dataset:
     there = numbers(with_members(result))
     wanted = there if member is None else arguments.members(member, there)
     prefix = "section_"
-    names = {
-        str(name): str(name).removeprefix(prefix)
-        for name in result.variables
-        if result[name].dims == ("section",) and str(name).startswith(prefix)
-    }
+    names = {str(name): str(name).removeprefix(prefix) for name in result.variables if result[name].dims == ("section",) and str(name).startswith(prefix)}
     # A member selected by a scalar would stand in the way of whose section each is.
     rows = result[[name for name in names if name != "section_member"]].drop_vars("member", errors="ignore").rename(names)
     return rows.isel(section=np.isin(rows["member"].values, wanted))

@@ -31,11 +31,7 @@ def rotation(roll: Any, yaw: Any, pitch: Any) -> Array:
     True
     """
     (sx, cx), (sy, cy), (sz, cz) = ((np.sin(a), np.cos(a)) for a in (roll, yaw, pitch))
-    rows = (
-        (cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx),
-        (sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx),
-        (-sy, cy * sx, cy * cx),
-    )
+    rows = ((cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx), (sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx), (-sy, cy * sx, cy * cx))
     return np.stack([np.stack(np.broadcast_arrays(*row), -1) for row in rows], -2)
 
 

@@ -12,7 +12,7 @@ import slideway
 import xarray as xr
 from slideway.exponent_signs import half_width_of_mean
 from slideway.program import call
-from slideway.report.figures_orbits import exponent_words
+from slideway.report.findings import exponent_words
 
 Result = Callable[[str], xr.Dataset]
 grows_like_t = "no growth beyond a power of time"

@@ -39,6 +39,7 @@ def test_distribution_says_at_a_limit_what_the_file_says(name: str, whose: str, 
     assert ax.lines[0].get_drawstyle() == "steps-post"
     assert at(ax, 1000) == pytest.approx(share)
     assert f"limit, kept by {share:.1f}%" in labels_of(ax)
+    assert len(ax.containers) == 1  # the quantiles
     assert ax.get_ylabel() == f"share of the {whose.format(trials)} that ran [%]"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import slideway
 import xarray as xr
-from slideway.report.figures_tolerance import sensitivity
+from slideway.report.figures import _sensitivity
 
 falling = {
     "schema": 1,
@@ -38,7 +38,7 @@ def test_plot_of_rounding_is_refused_with_the_reason(result: xr.Dataset) -> None
 
 
 def test_page_says_what_has_no_index(result: xr.Dataset) -> None:
-    figure = sensitivity(result)
+    figure = _sensitivity(result)
     assert figure is not None
     assert "Without an index: friction_loss varies by" in figure.caption
     assert {variant.label for variant in figure.variants} == {"damping_loss", "energy_change"}

@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 
 import slideway
-from reproduction.page import table_html
+from reproduction.page import html, table_html
 from reproduction.runs import Laboratory, Missing
 
 from .experiment import Experiment
@@ -18,17 +18,12 @@ from .experiments import EXPERIMENTS, SIZES
 
 def page(experiments: list[Experiment], facts: list[str]) -> str:
     """The whole page as HTML."""
-    style = (Path(__file__).resolve().parents[1] / "reproduction/style.css").read_text(encoding="utf-8")
-    parts = [
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">',
-        f"<title>Which law makes energy</title><style>{style}</style></head><body><h1>Which law makes energy, where and how much</h1>",
-        *(f'<p class="soft">{escape(fact)}</p>' for fact in facts),
-    ]
+    parts = [f'<p class="soft">{escape(fact)}</p>' for fact in facts]
     for experiment in experiments:
         parts.append(f"<h2>{escape(experiment.title)}</h2>")
         parts += [f"<p>{escape(words)}</p>" for words in experiment.words]
         parts += [table_html(table) for table in experiment.tables]
-    return "\n".join(parts) + "\n</body></html>\n"
+    return html("Which law makes energy", "Which law makes energy, where and how much", parts)
 
 
 def text(experiments: list[Experiment]) -> str:

@@ -99,15 +99,9 @@ def fall(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     runs = {}
     for name, law in variants.items():
         keys = {
-            **law,
-            "friction.enabled": False,
-            "initial.vx": 0.0,
-            "study.members": size.falls,
-            "study.duration": size.seconds,
-            "study.samples": 0,
-            "study.quantities": ["energy_change", "damping_loss", "energy_residual", "contact_onsets", "mode_time"],
-            "study.vary": starts(0.1),
-        }
+            **law, "friction.enabled": False, "initial.vx": 0.0, "study.members": size.falls, "study.duration": size.seconds, "study.samples": 0,
+            "study.quantities": ["energy_change", "damping_loss", "energy_residual", "contact_onsets", "mode_time"], "study.vary": starts(0.1),
+        }  # fmt: skip
         if size.verify:
             # What lies on its way takes an explicit method a hundred times as long: there a run at a hundredth of the tolerance stands beside.
             keys["study.verify"] = 0 if name.startswith("conservative") else size.verify
@@ -118,13 +112,9 @@ def fall(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
         free = result["mode_time"].sel(mode_class="free") / size.seconds
         rows.append(
             [
-                name,
-                mean(result["damping_loss"], 1e3),
-                mean(result["energy_residual"], 1e3),
-                mean(free, 100),
-                mean(result["contact_onsets"]),
+                name, mean(result["damping_loss"], 1e3), mean(result["energy_residual"], 1e3), mean(free, 100), mean(result["contact_onsets"]),
                 resolution(output / f"{run.name}.nc", "damping_loss", "energy_residual", "mode_time[free]", "contact_onsets"),
-            ]
+            ]  # fmt: skip
         )
     head = ["law", "taken by damping [mJ]", "made from nothing [mJ]", "in flight [%]", "landings", "errors at most"]
     words = [
@@ -141,22 +131,13 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
         slug = "".join(c if c.isascii() and c.isalnum() else "_" for c in name)
         located = {"integrator.locate_modes": True} if name.startswith("published") else {}
         keys = {
-            **located,
-            **LAWS[name],
-            "study.members": size.members,
-            "study.revolutions": size.turns,
-            "study.samples_per_revolution": 2000,
-            "study.quantities": _QUANTITIES + (["switching_energy"] if located and "leapt" not in name else []),
-            "study.vary": starts(0.1),
-        }
+            **located, **LAWS[name], "study.members": size.members, "study.revolutions": size.turns, "study.samples_per_revolution": 2000,
+            "study.quantities": _QUANTITIES + (["switching_energy"] if located and "leapt" not in name else []), "study.vary": starts(0.1),
+        }  # fmt: skip
         study = {
-            **LAWS[name],
-            "study.members": size.exponents,
-            "study.transient_revolutions": size.turns,
-            "study.revolutions": size.turns,
-            "study.history": 0,
+            **LAWS[name], "study.members": size.exponents, "study.transient_revolutions": size.turns, "study.revolutions": size.turns, "study.history": 0,
             "study.quantities": ["energy_residual"],
-        }
+        }  # fmt: skip
         if size.verify:
             keys["study.verify"] = size.verify
             # What lies on its way takes an explicit method a hundred times as long, and with shadows longer still: the others take some minutes.
@@ -184,15 +165,10 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
             seen = resolution(output / f"{exponents[name].name}.nc", "lyapunov_exponent[1]")
         rows.append(
             [
-                name,
-                mean(made / seconds, 1e3),
-                f"{100 * float(made.mean()) / work:.2g} %" if LAWS[name].get("friction.enabled", True) else "–",
-                switches,
-                mean(result["mode_time"].sel(mode_class="free") / seconds, 100),
-                f"{1e6 * float(late.std('sample').median()):.2g}",
-                largest,
+                name, mean(made / seconds, 1e3), f"{100 * float(made.mean()) / work:.2g} %" if LAWS[name].get("friction.enabled", True) else "–", switches,
+                mean(result["mode_time"].sel(mode_class="free") / seconds, 100), f"{1e6 * float(late.std('sample').median()):.2g}", largest,
                 f"{resolution(output / f'{run.name}.nc', 'energy_residual', 'mode_time[free]')}; {seen}",
-            ]
+            ]  # fmt: skip
         )
     head = [
         "law", "made [mJ/s]", "of the crank's work", "off Σ jumps of U", "in flight [%]", "amplitude [µm]", "λ₁ [1/s]", "errors at most",
@@ -209,32 +185,19 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
 def scatter(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     """All open numbers at once: a Latin hypercube under the published law."""
     vary = {
-        **starts(0.1),
-        "contact.hertz_exponent": {"dist": "unif", "low": 1.3, "high": 1.5},
-        "contact.eta": {"dist": "unif", "low": 0.001, "high": 0.1},
-        "contact.chi_line": {"dist": "unif", "low": 0, "high": 50},
-        "contact.chi_surface": {"dist": "unif", "low": 0, "high": 50},
-        "contact.apex_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"},
-        "contact.edge_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"},
-        "contact.slider_young_modulus": {"dist": "unif", "low": 5e10, "high": 2.1e11},
-        "friction.kinetic": {"dist": "unif", "low": 0.02, "high": 0.15},
+        **starts(0.1), "contact.hertz_exponent": {"dist": "unif", "low": 1.3, "high": 1.5}, "contact.eta": {"dist": "unif", "low": 0.001, "high": 0.1},
+        "contact.chi_line": {"dist": "unif", "low": 0, "high": 50}, "contact.chi_surface": {"dist": "unif", "low": 0, "high": 50},
+        "contact.apex_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"}, "contact.edge_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"},
+        "contact.slider_young_modulus": {"dist": "unif", "low": 5e10, "high": 2.1e11}, "friction.kinetic": {"dist": "unif", "low": 0.02, "high": 0.15},
         "mechanism.crank_speed": {"dist": "unif", "low": 1.5, "high": 6.3},
-    }
+    }  # fmt: skip
     runs = {}
     for words, located in (("located", True), ("leapt", False)):
         keys = {
-            "contact.law": "paper",
-            "integrator.locate_modes": located,
-            "study.kind": "tolerance",
-            "study.design": "lhs",
-            "study.members": size.draws,
-            "study.revolutions": None,
-            "study.duration": 2 * size.turns,
-            "study.samples_per_revolution": None,
-            "study.samples": 0,
-            "study.quantities": _QUANTITIES,
-            "study.vary": vary,
-        }
+            "contact.law": "paper", "integrator.locate_modes": located, "study.kind": "tolerance", "study.design": "lhs", "study.members": size.draws,
+            "study.revolutions": None, "study.duration": 2 * size.turns, "study.samples_per_revolution": None, "study.samples": 0,
+            "study.quantities": _QUANTITIES, "study.vary": vary,
+        }  # fmt: skip
         if size.verify:
             keys["study.verify"] = size.verify
         runs[words] = Run(f"scatter_{words}", "slider_crank_0.1mm.toml", keys)

@@ -10,15 +10,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import subprocess
 from collections import Counter
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import netCDF4
 import numpy as np
+import slideway
+import xarray as xr
 
-VERDICTS = ("resolved", "error_bounded", "undecided", "not_resolved")
 PLANAR = (
     'kind = "planar_slider_crank"\ncrank_length = "30 mm"\nrod_length = "120 mm"\ncrank_mass = 0.3\nrod_mass = 0.25\nslider_mass = 0.35\n'
     "crank_inertia = 1.5e-4\nrod_inertia = 4e-4\nslider_inertia_z = 6e-5\n"
@@ -96,84 +96,52 @@ class Study:
         return f'kind = "{dice.choice(["slider_crank", "scotch_yoke", "free_slider", "carriage"])}"\n'
 
 
-def run(program: str, scene: Path, output: Path, sets: list[str]) -> None:
-    """One run, by one thread; its members' failures are no failure of the run."""
-    command = [program, "run", str(scene), "-o", str(output), "--force", "--quiet", "--threads", "1", "--max-failures", "100%"]
-    if sets:
-        command += ["--set", *sets]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)}: {done.stderr.strip()[:500]}")
-
-
-def means(path: Path, columns: list[str], members: np.ndarray[Any, Any]) -> dict[str, float]:
-    """Of the members of a group that finished."""
-    with netCDF4.Dataset(path) as file:
-        finished = (np.asarray(file["status"][:]) == 0) & members
-        found = {}
-        for column in columns:
-            name = column.split(" ")[0]
-            variable, _, label = name.partition("[")
-            values = np.asarray(file[variable][:])
-            if label:
-                dimension = file[variable].dimensions[1]
-                labels = ["".join(row.astype(str)).strip("\0 ") for row in np.ma.filled(file[dimension + "_name"][:], b"")]
-                values = values[:, labels.index(label.rstrip("]"))]
-            found[column] = float(values[finished].mean()) if finished.any() else float("nan")
-        return found
+def means(result: xr.Dataset, columns: list[str], members: np.ndarray[Any, Any]) -> dict[str, float]:
+    """Of some members."""
+    found = {}
+    for column in columns:
+        variable, _, label = column.split(" ")[0].removesuffix("]").partition("[")
+        values = result[variable].sel({result[variable].dims[1]: label}) if label else result[variable]
+        found[column] = float(values.values[members].mean()) if members.any() else float("nan")
+    return found
 
 
 def look_at(program: str, study: Study, folder: Path) -> dict[str, Any]:
     """What the program says of a study, and what is true."""
-    scene = folder / "scene.toml"
+    run = partial(slideway.run, program=program, threads=1, progress=False, force=True, max_failures="100%")
+    scene, bare = folder / "scene.toml", folder / "truth.toml"
     scene.write_text(study.text)
-    own, truth = folder / "own.nc", folder / "truth.nc"
-    run(program, scene, own, [])
-    fixed = study.method in ("rk4", "moreau_jean")
-    tight = 1e-9 if fixed else max(1e-13, 1e-3 * study.rtol)
-    if not fixed:
-        tight = min(tight, 1e-6)
-    rows: list[dict[str, Any]] = []
-    with netCDF4.Dataset(own) as file:
-        group = file["verification"]
-        result: dict[str, Any] = {
-            "number": study.number, "family": study.family, "good": study.is_good, "chaotic": study.chaotic, "method": study.method, "rtol": study.rtol,
-            "members": study.members, "resolution": str(group.resolution), "share": float(group.share_of_work), "summary": str(group.summary)[:300],
-            "verify": "verify =" in study.text,
-        }
-        if "verdict" not in group.variables:
-            return {**result, "numbers": rows}
-        text = lambda v: ["".join(r.astype(str)).strip("\0 ") for r in np.ma.filled(v[:], b"")]  # noqa: E731
-        columns, groups = text(group["checked_name"]), text(group["members_of_name"])
-        verdicts, margins, values, bounds = (np.asarray(group[name][:]) for name in ("verdict", "margin", "number", "error_bound"))
-        inputs = {name: np.asarray(file[name][:]) for name in file.variables if name == "mechanism_crank_speed"}
-        status = np.asarray(file["status"][:])
-    checked = [c for c in columns if "at the end" not in c]
-    true: list[list[dict[str, float]]] = []
+    bare.write_text("\n".join(line for line in study.text.splitlines() if not line.startswith(("step =", "rtol =", "verify ="))) + "\n")
+    own = run(scene, folder / "own.nc").load()
+    said, check = slideway.resolution(own), own.slideway.group("verification")
+    assert said is not None
+    result: dict[str, Any] = {
+        "number": study.number, "family": study.family, "good": study.is_good, "chaotic": study.chaotic, "method": study.method, "rtol": study.rtol,
+        "members": study.members, "resolution": said.verdict, "share": float(check.attrs["share_of_work"]), "summary": said.summary[:300],
+        "verify": "verify =" in study.text, "numbers": [],
+    }  # fmt: skip
+    if not said.numbers:
+        return result
+    columns = [column for column in map(str, said.numbers.checked.values) if "at the end" not in column]
+    settings: dict[str, Any] = {"integrator.rtol": 1e-9 if study.method in ("rk4", "moreau_jean") else min(max(1e-13, 1e-3 * study.rtol), 1e-6), "study.verify": 0}
+    if 'law = "paper"' in study.text:
+        settings["integrator.locate_modes"] = True  # no tolerance brings a step across a jump of the force
+    errors: dict[tuple[str, str], list[float]] = {}
     for method in ("auto", "verner65"):
-        sets = [f"integrator.method={method}", f"integrator.rtol={tight}", "study.verify=0"]
-        if 'law = "paper"' in study.text:
-            sets.append("integrator.locate_modes=true")  # no tolerance brings a step across a jump of the force
-        run_scene = folder / "truth.toml"
-        run_scene.write_text("\n".join(line for line in study.text.splitlines() if not line.startswith(("step =", "rtol =", "verify ="))) + "\n")
-        run(program, run_scene, truth, sets)
-        with netCDF4.Dataset(truth) as file:
-            both = (status == 0) & (np.asarray(file["status"][:]) == 0)
-            result.setdefault("lost", []).append(int((status == 0).sum() - both.sum()))
-        of_groups = []
-        for g in groups:
-            members = np.ones(status.size, bool) if g == "all members" else np.isclose(inputs["mechanism_crank_speed"], float(g.split(" = ")[1]), rtol=1e-5)
-            of_groups.append((means(truth, checked, both & members), means(own, checked, both & members)))
-        true.append([{c: now[c] - then[c] for c in checked} for now, then in of_groups])
-    for i, g in enumerate(groups):
-        for column in checked:
-            j = columns.index(column)
-            errors = [t[i][column] for t in true]
-            rows.append(
-                {"group": g, "name": column, "verdict": VERDICTS[int(verdicts[i, j])], "margin": float(margins[i, j]), "value": float(values[i, j]),
-                 "bound": float(bounds[i, j]), "errors": errors}
-            )
-    return {**result, "numbers": rows}
+        truth = run(bare, folder / "truth.nc", set=settings | {"integrator.method": method}).load()
+        ended = slideway.finished(own).values
+        both = ended & slideway.finished(truth).values
+        result.setdefault("lost", []).append(int(ended.sum() - both.sum()))
+        for group in map(str, said.numbers.members_of.values):
+            of = both if group == "all members" else both & np.isclose(own.mechanism_crank_speed.values, float(group.split(" = ")[1]), rtol=1e-5)
+            now, then = means(truth, columns, of), means(own, columns, of)
+            for column in columns:
+                errors.setdefault((group, column), []).append(now[column] - then[column])
+    for (group, column), found in errors.items():
+        number = said.numbers.sel(members_of=group, checked=column)
+        result["numbers"].append({"group": group, "name": column, "verdict": str(number.verdict.values), "margin": float(number.margin),
+                                  "value": float(number.number), "bound": float(number.error_bound), "errors": found})  # fmt: skip
+    return result
 
 
 def judge(results: list[dict[str, Any]]) -> dict[str, Any]:
@@ -222,7 +190,7 @@ def main() -> None:
             continue
         try:
             results.append(look_at(arguments.program, Study(number, arguments.seed), arguments.folder))
-        except RuntimeError as error:
+        except slideway.SlidewayError as error:
             print(number, error, flush=True)
             continue
         with record.open("a") as file:

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import slideway
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.ticker import LogLocator, NullFormatter
+from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Note, Panel
 from slideway.palette import class_colours, colours, grey, limit_colour
+from slideway.plot.axes import frame
 from slideway.sections import sections
 
-from .style import as_svg, law_colours, law_names, panels
+from .style import as_svg, axes_of, law_colours, law_names, picture
 
+_short = {"paper": "as published", "conservative": "conservative"}
 _standard = "scenes/slider_crank_0.1mm.toml"
 _starts = {"initial.y": {"dist": "unif", "low": "-0.05 mm", "high": "0.05 mm"}}
 
@@ -27,20 +28,11 @@ def run(root: Path, scene: str, law: str, **overrides: Any) -> xr.Dataset:
                         **{"study__verify": 0} | overrides)
 
 
-def frame(ax: Axes, x: str, y: str) -> None:
-    """Labels and a light grid."""
-    ax.set_xlabel(x)
-    ax.set_ylabel(y)
-    ax.grid(True, color="#DDDDDD", lw=0.6)
-    ax.set_axisbelow(True)
-    for side in ("top", "right"):
-        ax.spines[side].set_visible(False)
-
-
 def stretches(time: np.ndarray, there: np.ndarray, columns: int = 400) -> list[tuple[float, float]]:
     """Starts and lengths of the stretches in which a flag is set, as fine as so many columns of the picture; none gets lost.
 
     >>> import numpy as np
+import pandas as pd
     >>> stretches(np.arange(8.0), np.array([0, 1, 0, 0, 0, 0, 1, 1]) > 0, 4)
     [(0.0, 1.75), (5.25, 1.75)]
     """
@@ -54,7 +46,7 @@ def stretches(time: np.ndarray, there: np.ndarray, columns: int = 400) -> list[t
 def modes(root: Path) -> str:
     """Which contacts a slider has over its first 0.6 s: the hardest of each sample."""
     classes = ("free", "point", "line", "surface")
-    figure, axes = panels(2, height=4.2, sharex=True)
+    figure, axes = axes_of(2, height=4.2, sharex=True)
     for ax, law in zip(axes, law_names, strict=True):
         result = run(root, _standard, law, study__revolutions=0.3, study__samples_per_revolution=0, study__samples=6001,
                      study__quantities=["points", "lines", "surfaces", "x"])
@@ -75,42 +67,36 @@ def modes(root: Path) -> str:
 def energy_residual(root: Path) -> str:
     """Energy that each law makes over a turn of the crank, from eight starts; the share is that of the median start."""
     times = np.array([0.1, 0.3, 0.6, 1.2, 2.0])
-    figure, axes = panels(1, 2, height=3.2, sharey=True)
-    for ax, law in zip(axes, law_names, strict=True):
+    panels = []
+    for law, words in _short.items():
         rows = []
         for time in times:
             result = run(root, _standard, law, vary=_starts, study__members=8, study__samples_per_revolution=0,
                          study__revolutions=float(time / 2), study__quantities=["energy_residual", "drive_work"])
             rows.append([1e3 * result[name].values for name in ("energy_residual", "drive_work")])
         residual, work = np.transpose(rows, (1, 2, 0))
-        for row in residual:
-            ax.plot(np.concatenate([[0], times]), np.concatenate([[0], row]), color=law_colours[law], lw=1.2, alpha=0.8)
-        ax.set_title({"paper": "as published", "conservative": "conservative"}[law], loc="left")
         share = np.median(np.abs(residual[:, -1]) / work[:, -1])
-        words = f"{share:.0%} of the\ncrank's work" if share > 0.01 else f"{share:.0e} of the\ncrank's work"
-        ax.text(0.04, 0.96, words, transform=ax.transAxes, va="top", color=law_colours[law])
-        frame(ax, "time [s]", "energy made by the law [mJ]" if ax is axes[0] else "")
-    return as_svg(figure)
+        note = Note(f"{share:.0%} of the\ncrank's work" if share > 0.01 else f"{share:.0e} of the\ncrank's work")
+        curves = [Curve(np.append(0, times), np.append(0, row), colour=law_colours[law], opacity=0.8) for row in residual]
+        panels.append(Panel([*curves, note], Axis("time", "s"), Axis("" if panels else "energy made by the law", "" if panels else "mJ"), words))
+    return picture(panels, 2, 3.2, sharey=True)
 
 
 def poincare(root: Path) -> str:
     """Sections at crank angle 0 under both laws."""
-    figure, axes = panels(1, 2, height=3.6, sharey=True)
-    for ax, law in zip(axes, law_names, strict=True):
+    panels = []
+    for law, words in _short.items():
         result = run(root, "scenes/poincare_0.1mm.toml", law, vary=_starts, study__members=16, study__transient_revolutions=2,
                      study__revolutions=20)
-        rows = sections(result)
-        ax.scatter(1e6 * rows["y"], 1e3 * rows["vy"], s=7, color=law_colours[law], lw=0)
-        ax.set_xlim(-115, 65)
-        ax.set_title({"paper": "as published", "conservative": "conservative"}[law], loc="left")
-        frame(ax, "y [µm]", "vy [mm/s]" if ax is axes[0] else "")
-    axes[1].text(-90, 0, f"all {result.sizes['section']} sections", va="center", color=law_colours["conservative"])
-    return as_svg(figure)
+        rows, note = sections(result), [Note(f"all {result.sizes['section']} sections")] if panels else []
+        cloud = Cloud(1e6 * rows["y"].values, 1e3 * rows["vy"].values, None, law_colours[law], size=7)
+        panels.append(Panel([cloud, *note], Axis("y", "µm", low=-115, high=65), Axis("" if panels else "vy", "" if panels else "mm/s"), words))
+    return picture(panels, 2, 3.6, sharey=True)
 
 
 def bifurcation(root: Path) -> str:
     """Sections over the clearance, under the law as published and under the conservative one."""
-    figure, axes = panels(2, height=5.4, sharex=True)
+    figure, axes = axes_of(2, height=5.4, sharex=True)
     for ax, law in zip(axes, law_names, strict=True):
         result = run(root, "scenes/sweep_clearance.toml", law, study__points=16, study__revolutions=10, study__transient_revolutions=2,
                      study__exponents=0)
@@ -127,28 +113,21 @@ def bifurcation(root: Path) -> str:
 
 def tolerance(root: Path) -> str:
     """Peak normal forces of the mechanisms of a tolerance study, with the limit and the yield."""
-    figure, axes = panels(2, height=4.4, sharex=True)
-    edges = np.geomspace(250, 6000, 61)
-    for ax, law in zip(axes, law_names, strict=True):
-        result = run(root, "scenes/tolerance_0.1mm.toml", law, study__base=128)
-        force = result["peak_normal_force"].values
-        met = np.mean(force <= 1000.0)
+    edges, panels = np.geomspace(250, 6000, 61), []
+    for law, words in law_names.items():
+        force = run(root, "scenes/tolerance_0.1mm.toml", law, study__base=128)["peak_normal_force"].values
         shares = 100 * np.histogram(force, edges)[0] / force.size
-        ax.stairs(shares, edges, fill=True, color=law_colours[law], alpha=0.85)
-        ax.axvline(1000, color=limit_colour, lw=1.8, ls="--")
-        ax.set_title(f"{law_names[law]}: {met:.0%} meet the limit", loc="left")
-        ax.set_ylim(0, 1.25 * shares.max())
-        ax.text(1040, 1.22 * shares.max(), "limit 1 kN", color=limit_colour, va="top")
-        ax.set_xscale("log")
-        ax.set_xticks([300, 500, 1000, 2000, 5000], ["300", "500", "1000", "2000", "5000"])
-        ax.minorticks_off()
-        frame(ax, "peak normal force [N]" if ax is axes[-1] else "", "members [%]")
-    return as_svg(figure)
+        marks = [Bars(edges, shares, None, law_colours[law], 0.85), Level(1000, "x", "limit 1 kN", limit_colour, 1.8, "--")]
+        ticks = {value: f"{value}" for value in (300, 500, 1000, 2000, 5000)}
+        across = Axis("peak normal force" if panels else "", "N" if panels else "", log=True, ticks=ticks)
+        met = np.mean(force <= 1000.0)
+        panels.append(Panel(marks, across, Axis("members", "%", low=0, high=1.25 * shares.max()), f"{words}: {met:.0%} meet the limit"))
+    return picture(panels, height=4.8, sharex=True)
 
 
 def work_precision(root: Path) -> str:
     """Error against run time of one crank turn with its impacts (bench/results)."""
-    figure, (ax,) = panels(height=4.6)
+    figure, (ax,) = axes_of(height=4.6)
     slideway.plot.work_precision(root / "bench/results/work_precision.csv", "turn_energy", ax)
     ax.set_title("")
     ax.set_title("one crank turn with its impacts", loc="left")
@@ -161,31 +140,23 @@ def work_precision(root: Path) -> str:
 def heyoka(root: Path) -> str:
     """slideway beside heyoka: error against run time on two smooth problems and two with contacts (bench/results)."""
     titles = {"lorenz": "Lorenz", "flight": "slider in flight", "springs": "slider rattling on springs", "bouncing": "mass between springs"}
-    styles = {
-        "slideway dop853": ("dop853", {"color": colours[0], "marker": "o"}),
-        "slideway dopri5": ("dopri5", {"color": colours[1], "marker": "s"}),
-        "slideway auto": ("auto", {"color": colours[4], "marker": "D"}),
-        "slideway verner65": ("verner65", {"color": colours[2], "marker": "^"}),
-        "heyoka": ("heyoka", {"color": grey, "marker": "x", "ls": "--"}),
-        "heyoka, which looks for touches": ("heyoka, looking for touches", {"color": grey, "marker": "+", "ls": ":"}),
+    styles: dict[str, tuple[str, dict[str, Any]]] = {
+        "slideway dop853": ("dop853", {"colour": colours[0], "marker": "o"}),
+        "slideway dopri5": ("dopri5", {"colour": colours[1], "marker": "s"}),
+        "slideway auto": ("auto", {"colour": colours[4], "marker": "D"}),
+        "slideway verner65": ("verner65", {"colour": colours[2], "marker": "^"}),
+        "heyoka": ("heyoka", {"colour": grey, "marker": "x", "dash": "--"}),
+        "heyoka, which looks for touches": ("heyoka, looking for touches", {"colour": grey, "marker": "+", "dash": ":"}),
     }
-    with (root / "bench/results/heyoka_zen4.csv").open() as lines:
-        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    figure, axes = panels(2, 2, height=5.6, sharey=True)
-    handles: dict[str, Any] = {}
-    for ax, (problem, title) in zip(axes, titles.items(), strict=True):
+    table, panels = pd.read_csv(root / "bench/results/heyoka_zen4.csv", comment="#"), []
+    for place, (problem, title) in enumerate(titles.items()):
+        curves = []
         for method, (words, style) in styles.items():
-            own = [row for row in rows if row["problem"] == problem and row["method"] == method]
-            if own:
-                points = np.array([[1e6 * float(row["seconds_per_member"]), float(row["median_error"])] for row in own])
-                handles[words] = ax.plot(*points.T, ms=4, lw=1.2, **style)[0]
-        frame(ax, "time per member [µs]" if ax in axes[2:] else "", "error, median" if ax in axes[::2] else "")
-        ax.set_title(title, loc="left")
-        ax.set_xscale("log")
-        ax.set_yscale("log")
-        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        ax.xaxis.set_major_formatter("{x:g}")
-        ax.xaxis.set_minor_formatter(NullFormatter())
-        ax.set_ylim(1e-14, 1e-1)
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3, frameon=False)
-    return as_svg(figure)
+            rows = table[(table.problem == problem) & (table.method == method)]
+            if len(rows):
+                curves.append(Curve(1e6 * rows.seconds_per_member.to_numpy(), rows.median_error.to_numpy(), words, **style))
+        times = np.concatenate([curve.x for curve in curves])
+        ticks = {value: f"{value:g}" for value in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100) if times.min() <= value <= times.max()}
+        across = Axis("time per member" if place > 1 else "", "µs" if place > 1 else "", log=True, ticks=ticks)
+        panels.append(Panel(curves, across, Axis("" if place % 2 else "error, median", log=True, low=1e-14, high=0.1), title))
+    return picture(panels, 2, 5.6, 3, sharey=True)

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import slideway
 from slideway.palette import colours, limit_colour
+from slideway.plot.axes import frame
 
-from .figures import frame
-from .style import as_svg, panels
+from .style import as_svg, axes_of
 
 _soft = 1e8  # [N/m^1.5], so soft that the difference shows
 
@@ -36,7 +36,7 @@ def end_of_bounces(touches: np.ndarray, e: float) -> float:
 
 def rigid(root: Path) -> str:
     """A slider between its walls, rigid and compliant, and its bounces before it rests on the upper wall."""
-    figure, (above, below) = panels(2, height=5.4)
+    figure, (above, below) = axes_of(2, height=5.4)
     for line, width, colour, words, is_rigid in (("-", 1.8, colours[0], "rigid", True), (":", 1.6, colours[1], "compliant, 1e8 N/m$^{1.5}$", False)):
         time, height, _ = _height(root, is_rigid, 0.05, 1001)
         above.plot(time, height, line, lw=width, color=colour, label=words)

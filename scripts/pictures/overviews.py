@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import shutil
 import subprocess
@@ -10,44 +9,45 @@ import tempfile
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
 import slideway
 from matplotlib.patches import FancyBboxPatch
 from PIL import Image
-from slideway.palette import colours, grey
+from slideway.figures.marks import Axis, Curve, Level, Panel
+from slideway.palette import colours
 
-from .figures import frame, run
-from .style import as_svg, panels
+from .figures import run
+from .style import as_svg, axes_of, picture
 
 
 def stability(root: Path) -> str:
     """Energy error over the tolerance of each method, and of rk4 over its step (bench/results/stability.csv)."""
-    lines = [line for line in (root / "bench/results/stability.csv").read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-    rows = [row for row in csv.DictReader(lines) if row["law"] == "conservative"]
-    figure, (left, right) = panels(1, 2, height=3.4, sharey=True)
-    for place, method in enumerate(("auto", "dopri5", "bs32", "ros34pw2")):
-        own = [row for row in rows if row["axis"] == "tolerance" and row["method"] == method and int(row["finished"]) == int(row["members"])]
-        left.loglog([float(row["tolerance"]) for row in own], [float(row["median_relative_residual"]) for row in own], "o-", ms=3.5, lw=1.2,
-                    color=colours[place], label=method)
-    left.invert_xaxis()
-    left.legend(frameon=False)
-    left.set_title("falling, by tolerance", loc="left")
-    frame(left, "rtol", "residual over the losses, median")
-    for axis, words, place in (("step", "falling", 4), ("step_lying", "lying", 5)):
-        own = [row for row in rows if row["axis"] == axis and row["median_relative_residual"] not in ("", "nan")]
-        own.sort(key=lambda row: float(row["step_s"]))
-        right.loglog([float(row["step_s"]) / float(row["linear_limit_s"]) for row in own], [float(row["median_relative_residual"]) for row in own],
-                     "o-", ms=3.5, lw=1.2, color=colours[place], label=words)
-    right.axvline(1, color=grey, lw=1, ls="--")
-    right.legend(frameon=False)
-    right.set_title("rk4, by step", loc="left")
-    frame(right, "step over 2√2/Ω", "")
-    return as_svg(figure)
+    table = pd.read_csv(root / "bench/results/stability.csv", comment="#")
+    table = table[table.law == "conservative"]
+
+    def curve(x: pd.Series, rows: pd.DataFrame, words: str, colour: str) -> Curve:
+        return Curve(x.to_numpy(), rows.median_relative_residual.to_numpy(), words, colour, marker="o", size=3.5)
+
+    left, right = [], []
+    for colour, method in zip(colours, ("auto", "dopri5", "bs32", "ros34pw2")):
+        own = table[(table.axis == "tolerance") & (table.method == method) & (table.finished == table.members)]
+        left.append(curve(own.tolerance, own, method, colour))
+    for axis, words, colour in (("step", "falling", colours[4]), ("step_lying", "lying", colours[5])):
+        own = table[(table.axis == axis) & table.median_relative_residual.notna()].sort_values("step_s")
+        right.append(curve(own.step_s / own.linear_limit_s, own, words, colour))
+    residual, tolerances = Axis("residual over the losses, median", log=True), np.concatenate([curve.x for curve in left])
+    across = Axis("rtol", log=True, low=2 * tolerances.max(), high=tolerances.min() / 2)
+    return picture([
+        Panel(left, across, residual, "falling, by tolerance"),
+        Panel([*right, Level(1, "x", dash="--")], Axis("step over 2√2/Ω", log=True), Axis("", log=True), "rk4, by step"),
+    ], 2, 3.4, sharey=True)  # fmt: skip
 
 
 def plots(root: Path) -> str:
     """Two plots of the Python package (docs/how_to/python.md), of a tolerance study."""
     result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=256)
-    figure, axes = panels(2, height=6.0)
+    figure, axes = axes_of(2, height=6.0)
     slideway.plot.quantiles(result, "peak_normal_force", ax=axes[0])
     slideway.plot.sensitivity(result, "peak_normal_force", ax=axes[1])
     for ax in axes:  # beside the axes the legends would take half of so narrow a picture
@@ -61,7 +61,7 @@ def explain(root: Path) -> str:
     result = run(root, "scenes/ensemble_starts.toml", "conservative", study__members=2, study__duration="40 ms", study__samples=4001,
                  study__quantities=["normal_force"])  # fmt: skip
     largest = float(result.time[int(result.normal_force.values[1].argmax())])
-    figure, axes = panels(1, 2, height=3.0)
+    figure, axes = axes_of(1, 2, height=3.0)
     for ax, view in zip(axes, ("end", "side"), strict=True):
         slideway.plot.apex_forces(slideway.explain(result, member=1, time=largest), ax, view=view)
     return as_svg(figure)

@@ -16,7 +16,7 @@ import xarray as xr
 from matplotlib.patches import Patch
 from slideway.palette import colours
 
-from .style import as_svg, panels
+from .style import as_svg, axes_of
 
 speeds = np.linspace(20, 200, 19)  # [rad/s]
 starts = 4
@@ -81,7 +81,7 @@ def row(root: Path, name: str, value: float, tolerance: float = 1e-6) -> list[li
 
 def regimes(root: Path) -> str:
     """Three maps over the speed of the crank; each row has a stripe for each start."""
-    figure, axes = panels(3, height=7.6, sharex=True, height_ratios=[len(values) for values in rows.values()])
+    figure, axes = axes_of(3, height=7.6, sharex=True, height_ratios=[len(values) for values in rows.values()])
     step = speeds[1] - speeds[0]
     for ax, (name, values) in zip(axes, rows.items(), strict=True):
         for place, value in enumerate(values):

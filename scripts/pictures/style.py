@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from io import StringIO
 from pathlib import Path
 
@@ -11,7 +12,9 @@ import matplotlib
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from slideway.figures.marks import Panel
 from slideway.palette import colours
+from slideway.plot.axes import draw
 
 matplotlib.use("svg")
 matplotlib.rcParams.update({
@@ -33,10 +36,25 @@ law_names = {"paper": "law as published (paper)", "conservative": "conservative 
 Picture = Callable[[Path], str | bytes]  # makes the text of an SVG file, or a PNG file; its argument is the root of the repository
 
 
-def panels(rows: int = 1, columns: int = 1, height: float = 3.4, **options: object) -> tuple[Figure, list[Axes]]:
+def axes_of(rows: int = 1, columns: int = 1, height: float = 3.4, **options: object) -> tuple[Figure, list[Axes]]:
     """A figure of 5.4 inches, which a telephone's 390 pixels shrink by a quarter."""
     figure, axes = plt.subplots(rows, columns, figsize=(5.4, height), layout="constrained", squeeze=False, **options)  # type: ignore[arg-type]
     return figure, list(axes.flat)
+
+
+def picture(panels: Sequence[Panel], columns: int = 1, height: float = 3.4, below: int = 0, **options: object) -> str:
+    """Panels beside and below each other, as SVG. What they show is named in a corner of each, or below all of them in so many columns."""
+    figure, axes = axes_of(-(-len(panels) // columns), columns, height, **options)
+    for panel, ax in zip(panels, axes, strict=True):
+        draw(replace(panel, title=""), ax)
+        ax.set_title(panel.title, loc="left")
+    if below:
+        named = dict(pair for ax in axes for pair in zip(*reversed(ax.get_legend_handles_labels()), strict=True))
+        for ax in axes:
+            if ax.get_legend():
+                ax.get_legend().remove()
+        figure.legend(named.values(), named.keys(), loc="outside lower center", ncols=below, frameon=False)
+    return as_svg(figure)
 
 
 def as_svg(figure: Figure) -> str:

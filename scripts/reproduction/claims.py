@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from slideway.units import plus_minus
 
 from .estimates import Estimate, difference, estimate, grows, share
 
@@ -75,19 +76,14 @@ def judge(paper: bool | None, conservative: bool | None) -> Verdict:
 UNTOLD = Verdict("cannot be told from the scan", "open")
 
 
-def claim(place: str, words: str, findings: Mapping[str, Finding], verdict: Verdict | None = None) -> Claim:
-    """A claim with the verdict of its findings, or with one that is given where the print lacks what a judgement needs."""
+def claim(place: str, words: str, finding: Callable[[str], Finding], verdict: Verdict | None = None) -> Claim:
+    """A claim with what each law gives for it and the verdict of both, or with one that is given where the print lacks what a judgement needs."""
+    findings = {law: finding(law) for law in LAWS}
     return Claim(place, words, findings, verdict or judge(findings["paper"].answer, findings["conservative"].answer))
 
 
 def growth(
-    place: str,
-    words: str,
-    labels: Sequence[str],
-    columns: Mapping[str, Sequence[np.ndarray]],
-    unit: str,
-    factor: float = 1.0,
-    floor: float = 0.0,
+    place: str, words: str, labels: Sequence[str], columns: Mapping[str, Sequence[np.ndarray]], unit: str, factor: float = 1.0, floor: float = 0.0
 ) -> Claim:
     """The claim that a quantity grows from case to case.
 
@@ -97,22 +93,22 @@ def growth(
         factor: brings the values into `unit`.
         floor: where most starts of every case stay below it, nothing moves, and nothing can grow.
     """
-    findings = {}
-    for law, values in columns.items():
+
+    def finding(law: str) -> Finding:
+        values = columns[law]
         taken = [estimate(v) for v in values]
         lines = [f"{name}: {said(t, unit, factor)}" for name, t in zip(labels, taken, strict=True)]
         whole = difference(values[0], values[-1])
         answer = grows(list(values))
         moving = [share(v > floor, np.isfinite(v)) for v in values]
         if floor > 0 and all(m.high < 0.5 for m in moving):
-            lines.append(
-                f"nothing moves in {100 * min(1 - m.mean for m in moving):.0f} % of the starts at least: below {factor * floor:.2g} {unit}".rstrip()
-            )
+            lines.append(f"nothing moves in {100 * min(1 - m.mean for m in moving):.0f} % of the starts at least: below {factor * floor:.2g} {unit}".rstrip())
             answer = False
         elif np.isfinite(whole.half_width) and whole.base != 0:
             lines.append(f"{labels[0]} → {labels[-1]}: {percent(whole.mean / whole.base, whole.half_width / abs(whole.base))}")
-        findings[law] = Finding(tuple(lines), answer)
-    return claim(place, words, findings)
+        return Finding(tuple(lines), answer)
+
+    return claim(place, words, finding)
 
 
 def said(value: Estimate, unit: str, factor: float = 1.0) -> str:
@@ -134,31 +130,3 @@ def percent(mean: float, half: float) -> str:
         return f"× {plus_minus(1 + mean, half)}"
     text = plus_minus(100 * mean, 100 * half)
     return ("" if text.startswith(("−", "(−")) else "+") + text + " %"
-
-
-def plus_minus(value: float, half: float) -> str:
-    """A value and the half width of its interval, to two digits of the latter; of small and large ones the power of ten stands apart.
-
-    >>> plus_minus(1.234e-7, 2e-9), plus_minus(-0.0451, 0.0031), plus_minus(2.33075, 1e-9)
-    ('(1.234 ± 0.020)·10⁻⁷', '−0.0451 ± 0.0031', '2.33075 ± 0.00001')
-    """
-    if not np.isfinite(value):
-        return "no number"
-    if not np.isfinite(half) or half <= 0:
-        return _minus(f"{value:.4g}")
-    # More than six digits say nothing: an interval that is narrower is rounded up to the last of them.
-    half = max(half, 10.0 ** np.floor(np.log10(abs(value))) * 1e-5) if value else half
-    size = int(np.floor(np.log10(max(abs(value), half))))
-    power = size if size >= 5 or size <= -4 else 0
-    mean, width = value / 10.0**power, half / 10.0**power
-    digits = 0 if half <= abs(value) * 1.0001e-4 else 1
-    places = digits - int(np.floor(np.log10(width) + 1e-9))
-    text = _minus(f"{round(mean, places):.{max(places, 0)}f} ± {round(width, places):.{max(places, 0)}f}")
-    return f"({text})·10{str(power).translate(_SUPERSCRIPTS)}" if power else text
-
-
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def _minus(text: str) -> str:
-    return text.replace("-", "−") if "e" not in text else ("−" + text[1:] if text.startswith("-") else text)

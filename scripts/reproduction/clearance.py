@@ -2,23 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
+from slideway.figures.marks import Axis, Curve, Level, Panel
 from slideway.palette import colours
-from slideway.plot.style import finish
+from slideway.plot.axes import draw as plot
 
-from .claims import LAWS, Claim, Finding, claim, growth, said
+from .claims import Claim, Finding, claim, said
 from .estimates import Change, difference, estimate
 from .plan import CARRIAGE_CLEARANCES, CLEARANCES, MAPS, crank
-from .sections import WINDOWS, Bench, Section, draw, wide_scale
-
-Quantity = Callable[[Bench, str, str, str], np.ndarray]
-"""Of bench, case, window and law: a value of each member."""
+from .sections import WINDOWS, Bench, Quantity, Section, draw, measured, values, wide_range
 
 QUIET_SPEED = 1e-6  # m/s, of a slider that lies still: a thousandth of a clearance a radian
 QUIET_ACCELERATION = 0.01  # m/s², a thousandth of g
+CRANKS = {words: crank(clearance) for words, clearance in CLEARANCES.items()}
+CRANKS_OF_MAPS = {words: crank(clearance) for words, clearance in MAPS.items()}
+
+
+def _rms(rows: np.ndarray) -> np.ndarray:
+    return np.asarray(np.sqrt(np.mean(rows**2, axis=1)))
+
+
+vy, vz = measured("vy", _rms), measured("vz", _rms)
+ay, az, across = values("rms_acceleration", "y"), values("rms_acceleration", "z"), values("rms_acceleration", "y", "z")
+of_carriage = values("rms_acceleration", "y", "z", family="carriage")
+rod = values("peak_rod_angular_velocity")
+KINEMATICS: tuple[tuple[str, str, Quantity, str, float], ...] = (
+    ("Fig. 12a", "Lateral velocity (rms of vz) grows with clearance", vz, "mm/s", QUIET_SPEED),
+    ("Fig. 12a", "Vertical velocity (rms of vy) grows with clearance", vy, "mm/s", QUIET_SPEED),
+    ("Fig. 12b", "Lateral acceleration (rms) grows with clearance", az, "m/s²", QUIET_ACCELERATION),
+    ("Fig. 12b", "Vertical acceleration (rms) grows with clearance", ay, "m/s²", QUIET_ACCELERATION),
+    ("Fig. 12c", "The rod's largest angular velocity grows with clearance", rod, "rad/s", 0.0),
+)
 
 
 def section(bench: Bench) -> Section:
@@ -33,159 +51,55 @@ def section(bench: Bench) -> Section:
         ],
     )
     for window, when in WINDOWS.items():
-        page.claims += [
-            _growth(bench, window, place, f"{words}, {when}.", q, unit, floor) for place, words, q, unit, floor in _kinematics()
-        ]
+        for place, words, quantity, unit, floor in KINEMATICS:
+            factor = 1e3 if unit == "mm/s" else 1.0
+            page.claims.append(bench.growth(place, f"{words}, {when}.", quantity, CRANKS_OF_MAPS, window, unit, factor, floor))
+    crank_words = "The acceleration of the slider-crank grows with clearance, 0.15 and 0.22 mm included."
+    carriage_words = "The acceleration of the carriage (the experiment) grows with clearance."
     page.claims += [
-        _growth(
-            bench,
-            "settled",
-            "Fig. 15b",
-            "The acceleration of the slider-crank grows with clearance, 0.15 and 0.22 mm included.",
-            _across,
-            "m/s²",
-            QUIET_ACCELERATION,
-            CLEARANCES,
-        ),
-        growth(
-            "Fig. 15a",
-            "The acceleration of the carriage (the experiment) grows with clearance.",
-            list(CARRIAGE_CLEARANCES),
-            {law: [_carriage(bench, case, "settled", law) for case in CARRIAGE_CLEARANCES.values()] for law in LAWS},
-            "m/s²",
-            floor=QUIET_ACCELERATION,
-        ),
-        _exception(
-            bench,
-            "slider-crank",
-            ("0.15 mm", "0.22 mm", "0.3 mm"),
-            _across,
-            [crank(CLEARANCES[c]) for c in ("0.15 mm", "0.22 mm", "0.3 mm")],
-        ),
-        _exception(bench, "carriage", tuple(CARRIAGE_CLEARANCES), _carriage, list(CARRIAGE_CLEARANCES.values())),
+        bench.growth("Fig. 15b", crank_words, across, CRANKS, "settled", "m/s²", floor=QUIET_ACCELERATION),
+        bench.growth("Fig. 15a", carriage_words, of_carriage, CARRIAGE_CLEARANCES, "settled", "m/s²", floor=QUIET_ACCELERATION),
+        _exception(bench, "slider-crank", across, {words: CRANKS[words] for words in ("0.15 mm", "0.22 mm", "0.3 mm")}),
+        _exception(bench, "carriage", of_carriage, CARRIAGE_CLEARANCES),
     ]
     page.figures = [
-        draw(
-            "Fig. 12a: velocity across the way, rms, by clearance.",
-            lambda law, ax: _chart(bench, law, ax, {"y": _vy, "z": _vz}, 1e3, "rms velocity [mm/s]"),
-        ),
-        draw(
-            "Figs. 12b, 15: acceleration across the way, rms, by clearance.",
-            lambda law, ax: _chart(bench, law, ax, {"y": _ay, "z": _az}, 1, "rms acceleration [m/s²]"),
-        ),
-        draw(
-            "Fig. 12c: largest angular velocity of the rod, by clearance; the dotted line is the mechanism without clearance.",
-            lambda law, ax: _rod_chart(bench, law, ax),
-        ),
+        draw("Fig. 12a: velocity across the way, rms, by clearance.", partial(_chart, bench, {"y": vy, "z": vz}, 1e3, "rms velocity [mm/s]")),
+        draw("Figs. 12b, 15: acceleration across the way, rms, by clearance.", partial(_chart, bench, {"y": ay, "z": az}, 1, "rms acceleration [m/s²]")),
+        draw("Fig. 12c: largest angular velocity of the rod, by clearance; the dotted line is the mechanism without clearance.", partial(_rod_chart, bench)),
     ]
-    page.tables = [
-        bench.audit("crank", [(c, crank(v)) for c, v in CLEARANCES.items()], window, bench.scale.revolutions) for window in WINDOWS
-    ]
+    page.tables = [bench.audit("crank", list(CRANKS.items()), window, bench.scale.revolutions) for window in WINDOWS]
     return page
 
 
-def _kinematics() -> list[tuple[str, str, Quantity, str, float]]:
-    return [
-        ("Fig. 12a", "Lateral velocity (rms of vz) grows with clearance", _vz, "mm/s", QUIET_SPEED),
-        ("Fig. 12a", "Vertical velocity (rms of vy) grows with clearance", _vy, "mm/s", QUIET_SPEED),
-        ("Fig. 12b", "Lateral acceleration (rms) grows with clearance", _az, "m/s²", QUIET_ACCELERATION),
-        ("Fig. 12b", "Vertical acceleration (rms) grows with clearance", _ay, "m/s²", QUIET_ACCELERATION),
-        ("Fig. 12c", "The rod's largest angular velocity grows with clearance", _rod, "rad/s", 0.0),
-    ]
-
-
-def _growth(
-    bench: Bench, window: str, place: str, words: str, quantity: Quantity, unit: str, floor: float, cases: dict[str, float] = MAPS
-) -> Claim:
-    columns = {law: [quantity(bench, crank(c), window, law) for c in cases.values()] for law in LAWS}
-    return growth(place, words, list(cases), columns, unit, 1e3 if unit == "mm/s" else 1.0, floor)
-
-
-def _exception(bench: Bench, of: str, labels: tuple[str, ...], quantity: Quantity, cases: list[str]) -> Claim:
-    findings = {}
-    for law in LAWS:
-        below, here, above = (quantity(bench, case, "settled", law) for case in cases)
+def _exception(bench: Bench, of: str, quantity: Quantity, cases: Mapping[str, str]) -> Claim:
+    def finding(law: str) -> Finding:
+        below, here, above = (quantity(bench, case, "settled", law) for case in cases.values())
         into, out = difference(below, here).change, difference(here, above).change
-        lines = tuple(f"{c}: {said(estimate(v), 'm/s²')}" for c, v in zip(labels, (below, here, above), strict=True))
+        lines = tuple(f"{c}: {said(estimate(v), 'm/s²')}" for c, v in zip(cases, (below, here, above), strict=True))
         quiet = all(estimate(v).high < QUIET_ACCELERATION for v in (below, here, above))
         falls = into is Change.FALLS and out is Change.RISES
-        findings[law] = Finding(lines, False if quiet or into in (Change.RISES, Change.SAME) else True if falls else None)
-    return claim("Fig. 15a", f"0.22 mm is an exception, with less acceleration than the clearances beside it: {of}.", findings)
+        return Finding(lines, False if quiet or into in (Change.RISES, Change.SAME) else True if falls else None)
+
+    return claim("Fig. 15a", f"0.22 mm is an exception, with less acceleration than the clearances beside it: {of}.", finding)
 
 
-def _rms(rows: np.ndarray) -> np.ndarray:
-    return np.asarray(np.sqrt(np.mean(rows**2, axis=1)))
-
-
-def _vz(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return _rms(bench.series("crank", case, window, law, "vz"))
-
-
-def _vy(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return _rms(bench.series("crank", case, window, law, "vy"))
-
-
-def _az(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return bench.values("crank", case, window, law, "rms_acceleration", "z")
-
-
-def _ay(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return bench.values("crank", case, window, law, "rms_acceleration", "y")
-
-
-def _across(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return np.asarray(np.hypot(_ay(bench, case, window, law), _az(bench, case, window, law)))
-
-
-def _carriage(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return np.asarray(np.hypot(*(bench.values("carriage", case, window, law, "rms_acceleration", along) for along in ("y", "z"))))
-
-
-def _rod(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return bench.values("crank", case, window, law, "peak_rod_angular_velocity")
-
-
-def _chart(bench: Bench, law: str, ax: Axes, quantities: dict[str, Quantity], factor: float, words: str) -> None:
-    for (axis_name, quantity), colour in zip(quantities.items(), colours):
-        for (window, when), style in zip(WINDOWS.items(), ("--", "-")):
-            _errors(
-                ax,
-                [factor * quantity(bench, crank(c), window, law) for c in CLEARANCES.values()],
-                colour,
-                style,
-                f"{axis_name}, {when}",
-            )
-    _finish(ax, words)
-
-
-def _finish(ax: Axes, words: str) -> None:
+def _chart(bench: Bench, quantities: dict[str, Quantity], factor: float, words: str, law: str, ax: Axes) -> None:
     """From zero, or logarithmic where there are more than two decades to show."""
-    values = np.concatenate([line.get_ydata() for line in ax.get_lines()])
-    wide_scale(ax, values[values > 0])
-    if ax.get_yscale() == "linear":
-        ax.set_ylim(bottom=0)
-    finish(ax, "clearance per side [mm]", words)
+    curves = [_means(bench, quantity, window, law, colour, dash, f"{name}, {when}", factor) for (name, quantity), colour in zip(quantities.items(), colours)
+              for (window, when), dash in zip(WINDOWS.items(), ("--", "-"))]  # fmt: skip
+    ends = np.concatenate([end for curve in curves for end in (curve.low, curve.high)])
+    wide = wide_range(ends[ends > 0])
+    plot(Panel(curves, Axis("clearance per side", "mm"), Axis(words, log=wide, low=None if wide else 0)), ax)
 
 
 def _rod_chart(bench: Bench, law: str, ax: Axes) -> None:
-    for (window, when), style in zip(WINDOWS.items(), ("--", "-")):
-        _errors(ax, [_rod(bench, crank(c), window, law) for c in CLEARANCES.values()], colours[0], style, when)
+    curves = [_means(bench, rod, window, law, colours[0], dash, when) for (window, when), dash in zip(WINDOWS.items(), ("--", "-"))]
     # At θ = 0 the rod turns with r ω/L.
-    ax.axhline(0.05 * np.pi / 0.1422, color="#666666", ls=":", lw=1.2, label="without clearance")
-    finish(ax, "clearance per side [mm]", "angular velocity of the rod [rad/s]")
+    free = Level(0.05 * np.pi / 0.1422, label="without clearance", dash=":", width=1.2)
+    plot(Panel([*curves, free], Axis("clearance per side", "mm"), Axis("angular velocity of the rod", "rad/s")), ax)
 
 
-def _errors(ax: Axes, columns: list[np.ndarray], colour: str, style: str, words: str) -> None:
-    taken = [estimate(c) for c in columns]
-    ax.errorbar(
-        list(CLEARANCES.values()),
-        [t.mean for t in taken],
-        [t.half_width for t in taken],
-        color=colour,
-        ls=style,
-        marker="o",
-        ms=4,
-        capsize=3,
-        lw=1.3,
-        label=words,
-    )
+def _means(bench: Bench, quantity: Quantity, window: str, law: str, colour: str, dash: str, words: str, factor: float = 1.0) -> Curve:
+    taken = [estimate(factor * quantity(bench, case, window, law)) for case in CRANKS.values()]
+    mean, low, high = np.array([(t.mean, t.low, t.high) for t in taken]).T
+    return Curve(np.array(list(CLEARANCES.values())), mean, words, colour, dash=dash, marker="o", low=low, high=high)

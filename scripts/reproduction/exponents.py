@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
 from typing import Union
 
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
+from slideway.figures.marks import Axis, Curve, Mark, Panel
 from slideway.palette import colours
-from slideway.plot.style import finish
+from slideway.plot.axes import draw as plot
+from slideway.units import plus_minus
 
-from .claims import LAW_WORDS, LAWS, UNTOLD, Claim, Finding, Verdict, claim, plus_minus, said
+from .claims import LAWS, UNTOLD, Claim, Finding, Verdict, claim, said
 from .estimates import estimate, share
 from .plan import MAPS, crank
-from .sections import Bench, Section, Table, draw
+from .sections import Bench, Section, by_law, draw
 
-Series = list[tuple[slideway.SeriesStatistics, Union[slideway.SeriesStatistics, None]]]
+Pair = tuple[slideway.SeriesStatistics, Union[slideway.SeriesStatistics, None]]
+Series = dict[str, list[Pair]]  # by law
 PERIOD = 2.0  # s, of a revolution at π rad/s
 PRINTED = {"delay": 8, "window": 80, "dimension": 11}  # Eq. (19), samples
 
@@ -34,30 +40,19 @@ def section(bench: Bench) -> Section:
     series = {law: _series(bench, law) for law in LAWS}
     page.claims = [_by_neighbours(bench, c) for c in MAPS.values()] + [_by_series(series), _by_line(series)] + _embedding(series)
     page.figures = [
-        draw(
-            "How the exponent settles, 0.1 mm; linear within ±0.1 1/s, logarithmic beyond.",
-            lambda law, ax: _history(bench, law, ax),
-        ),
-        draw(
-            "Fig. 19: mean ln distance of neighbours of x(t), each start; the line is fitted to the first 80 samples.",
-            lambda law, ax: _divergence(series[law], ax),
-        ),
+        draw("How the exponent settles, 0.1 mm; linear within ±0.1 1/s, logarithmic beyond.", partial(_history, bench)),
+        draw("Fig. 19: mean ln distance of neighbours of x(t), each start; the line is fitted to the first 80 samples.", partial(_divergence, series)),
     ]
-    rows = []
-    for words, c in MAPS.items():
-        row = [words]
-        for law in LAWS:
-            values = _exponents(bench, c, law)
-            row += [said(estimate(values), ""), said(estimate(values), "", PERIOD), plus_minus(float(np.nanmedian(values)), np.nan)]
-        rows.append(row)
+
+    def cells(clearance: float, law: str) -> list[str]:
+        values = _exponents(bench, clearance, law)
+        return [said(estimate(values), ""), said(estimate(values), "", PERIOD), plus_minus(float(np.nanmedian(values)), np.nan)]
+
+    rows = {words: partial(cells, c) for words, c in MAPS.items()}
     columns = ("λ₁ [1/s]", "λ₁ a revolution", "median [1/s]")
     revolutions = bench.scale.exponent_transient + bench.scale.exponent_revolutions
     page.tables = [
-        Table(
-            "Largest exponent by neighbours, the second half of the record.",
-            ["clearance", *(f"{LAW_WORDS[law]}: {w}" for law in LAWS for w in columns)],
-            rows,
-        ),
+        by_law("Largest exponent by neighbours, the second half of the record.", "clearance", columns, rows),
         bench.audit("exponent", [(w, crank(c)) for w, c in MAPS.items()], "settled", revolutions),
     ]
     return page
@@ -68,26 +63,25 @@ def _exponents(bench: Bench, clearance: float, law: str) -> np.ndarray:
     return bench.values("exponent", crank(clearance), "settled", law, "lyapunov_exponent_late")
 
 
+def _mostly(hits: np.ndarray, there: np.ndarray) -> tuple[str, bool | None]:
+    """A share of the starts in words, and whether it is most of them."""
+    found = share(hits, there)
+    words = f"{100 * found.mean:.0f} % of the {{}} [{100 * found.low:.0f}, {100 * found.high:.0f}]"
+    return words, True if found.low > 0.5 else False if found.high < 0.5 else None
+
+
 def _by_neighbours(bench: Bench, clearance: float) -> Claim:
-    findings = {}
-    for law in LAWS:
+    def finding(law: str) -> Finding:
         values = _exponents(bench, clearance, law)
-        positive = share(values > 0, np.isfinite(values))
+        positive, answer = _mostly(values > 0, np.isfinite(values))
         taken = estimate(values)
-        lines = (
-            f"λ₁ = {said(taken, '1/s')}",
-            f"{said(taken, 'a revolution', PERIOD)}",
-            f"above zero: {100 * positive.mean:.0f} % of the starts [{100 * positive.low:.0f}, {100 * positive.high:.0f}]",
-        )
-        findings[law] = Finding(lines, True if positive.low > 0.5 else False if positive.high < 0.5 else None)
-    return claim(
-        "Fig. 19",
-        f"The largest exponent is positive, the motion chaotic, at {clearance:g} mm: neighbours that follow the equations, most starts.",
-        findings,
-    )
+        return Finding((f"λ₁ = {said(taken, '1/s')}", said(taken, "a revolution", PERIOD), f"above zero: {positive.format('starts')}"), answer)
+
+    words = f"The largest exponent is positive, the motion chaotic, at {clearance:g} mm: neighbours that follow the equations, most starts."
+    return claim("Fig. 19", words, finding)
 
 
-def _series(bench: Bench, law: str) -> Series:
+def _series(bench: Bench, law: str) -> list[Pair]:
     """Of each member: the rules' own statistics of x(t), and those with the print's dimension and a line over its window."""
     result = bench.result("series", "0.1mm", "settled", law)
     found = []
@@ -102,105 +96,75 @@ def _series(bench: Bench, law: str) -> Series:
     return found
 
 
-def _by_series(series: dict[str, Series]) -> Claim:
-    findings = {}
-    for law in LAWS:
-        verdicts = [own.text.get("verdict", "").splitlines()[0] for own, _ in series[law]]
-        chaotic = np.array([v.startswith("consistent with chaos") for v in verdicts])
-        taken = share(chaotic, np.ones(chaotic.size, bool))
-        slopes = estimate(np.array([own.exponent if own.exponent is not None else np.nan for own, _ in series[law]]))
-        lines = [
-            f"consistent with chaos: {100 * taken.mean:.0f} % of the series [{100 * taken.low:.0f}, {100 * taken.high:.0f}]",
-            f"0–1 test K = {said(estimate(np.array([_leading(own, '0-1 test') for own, _ in series[law]])), '')}",
+def _of(series: Series, law: str, number: Callable[[slideway.SeriesStatistics], float]) -> np.ndarray:
+    """A number of each series of a law."""
+    return np.array([number(own) for own, _ in series[law]], dtype=float)
+
+
+def _slope(statistics: slideway.SeriesStatistics | None) -> float:
+    return np.nan if statistics is None or statistics.exponent is None else statistics.exponent
+
+
+def _by_series(series: Series) -> Claim:
+    def finding(law: str) -> Finding:
+        chaotic = _of(series, law, lambda own: own.text.get("verdict", "").startswith("consistent with chaos")) > 0
+        words, answer = _mostly(chaotic, np.ones(chaotic.size, bool))
+        slopes = estimate(_of(series, law, _slope))
+        lines = (
+            f"consistent with chaos: {words.format('series')}",
+            f"0–1 test K = {said(estimate(_of(series, law, lambda own: _leading(own, '0-1 test'))), '')}",
             f"a line is found in {slopes.count} of {len(series[law])}" + (f": {said(slopes, '1/s')}" if slopes.count else ""),
-        ]
-        findings[law] = Finding(tuple(lines), True if taken.low > 0.5 else False if taken.high < 0.5 else None)
-    return claim("Fig. 19, 4.7.2", "The series x(t) alone shows the chaos: exponential growth along a line, by rule, not by eye.", findings)
+        )
+        return Finding(lines, answer)
+
+    return claim("Fig. 19, 4.7.2", "The series x(t) alone shows the chaos: exponential growth along a line, by rule, not by eye.", finding)
 
 
-def _by_line(series: dict[str, Series]) -> Claim:
-    findings = {}
-    for law in LAWS:
-        slopes = np.array([line.exponent if line is not None and line.exponent is not None else np.nan for _, line in series[law]])
-        taken = estimate(slopes)
+def _by_line(series: Series) -> Claim:
+    def finding(law: str) -> Finding:
+        taken = estimate(np.array([_slope(line) for _, line in series[law]]))
         answer = None if not np.isfinite(taken.half_width) else True if taken.low > 0 else False
-        findings[law] = Finding((f"slope {said(taken, '1/s')}", f"{said(taken, 'a revolution', PERIOD)}"), answer)
+        return Finding((f"slope {said(taken, '1/s')}", said(taken, "a revolution", PERIOD)), answer)
+
     words = "A positive slope shows the chaos: m = 11 and a line through the first 80 samples of the divergence of x(t)."
-    both = all(finding.answer for finding in findings.values())
-    return claim("Fig. 19", words, findings, Verdict("positive where there is no chaos too: it shows nothing", "no") if both else None)
+    found = claim("Fig. 19", words, finding)
+    both = all(one.answer for one in found.findings.values())
+    return replace(found, verdict=Verdict("positive where there is no chaos too: it shows nothing", "no")) if both else found
 
 
-def _embedding(series: dict[str, Series]) -> list[Claim]:
+def _embedding(series: Series) -> list[Claim]:
     """Eq. (19) beside the same procedure on x(t)."""
-    step = {law: _step(series[law]) for law in LAWS}
-    rows: list[tuple[str, dict[str, Finding], Verdict]] = []
     untold = Verdict("cannot be told from the scan: the sampling is not given", UNTOLD.kind)
+    no_unit = Verdict("cannot be told: P has no unit; in seconds it is a tenth of a revolution, which is not the period of x(t)", UNTOLD.kind)
 
-    def counts(label: str) -> dict[str, np.ndarray]:
-        return {law: np.array([_number(own, label) for own, _ in series[law]], dtype=float) for law in LAWS}
+    def of(law: str, label: str) -> np.ndarray:
+        return _of(series, law, lambda own: _number(own, label))
 
-    delay = counts("delay")
-    window = {law: np.array([_window(own) for own, _ in series[law]]) for law in LAWS}
-    rows.append(
-        (
-            "τ = 8 samples",
-            {
-                law: Finding(
-                    (
-                        f"{said(estimate(delay[law]), 'samples')} of {1e3 * step[law]:g} ms",
-                        f"8, were they {said(estimate(delay[law] * step[law] / PRINTED['delay']), 'ms', 1e3)} apart",
-                    ),
-                    None,
-                )
-                for law in LAWS
-            },
-            untold,
-        )
-    )
-    rows.append(
-        (
-            "t_w = 80 samples, ten delays",
-            {
-                law: Finding((f"{said(estimate(window[law]), 'samples')}", f"{said(estimate(window[law] / delay[law]), 'delays')}"), None)
-                for law in LAWS
-            },
-            untold,
-        )
-    )
-    rows.append(
-        (
-            "m = t_w/τ + 1 = 11",
-            {
-                law: Finding(
-                    (
-                        f"m = {said(estimate(window[law] / delay[law] + 1), '')} from the same formula",
-                        f"{said(estimate(counts('dimension')[law]), '')} that these points can bear",
-                    ),
-                    None,
-                )
-                for law in LAWS
-            },
-            untold,
-        )
-    )
-    period = {law: np.array([_leading(own, "average period") for own, _ in series[law]]) for law in LAWS}
-    rows.append(
-        (
-            "P = 0.2147, the average period by FFT (no unit)",
-            {
-                law: Finding((f"{said(estimate(period[law]), 's')}", f"{said(estimate(period[law] / PERIOD), 'revolutions')}"), None)
-                for law in LAWS
-            },
-            Verdict(
-                "cannot be told: P has no unit; in seconds it is a tenth of a revolution, which is not the period of x(t)",
-                UNTOLD.kind,
-            ),
-        )
-    )
-    return [claim("Eq. (19)", f"{words}.", findings, verdict) for words, findings, verdict in rows]
+    def window(law: str) -> np.ndarray:
+        return _of(series, law, _window)
+
+    def delays(law: str) -> tuple[str, str]:
+        step, delay = _step(series[law]), of(law, "delay")
+        apart = said(estimate(delay * step / PRINTED["delay"]), "ms", 1e3)
+        return f"{said(estimate(delay), 'samples')} of {1e3 * step:g} ms", f"8, were they {apart} apart"
+
+    def windows(law: str) -> tuple[str, str]:
+        return said(estimate(window(law)), "samples"), said(estimate(window(law) / of(law, "delay")), "delays")
+
+    def dimensions(law: str) -> tuple[str, str]:
+        formula, borne = estimate(window(law) / of(law, "delay") + 1), estimate(of(law, "dimension"))
+        return f"m = {said(formula, '')} from the same formula", f"{said(borne, '')} that these points can bear"
+
+    def periods(law: str) -> tuple[str, str]:
+        period = _of(series, law, lambda own: _leading(own, "average period"))
+        return said(estimate(period), "s"), said(estimate(period / PERIOD), "revolutions")
+
+    every = (("τ = 8 samples", delays, untold), ("t_w = 80 samples, ten delays", windows, untold), ("m = t_w/τ + 1 = 11", dimensions, untold),
+             ("P = 0.2147, the average period by FFT (no unit)", periods, no_unit))  # fmt: skip
+    return [claim("Eq. (19)", f"{words}.", lambda law, lines=lines: Finding(lines(law), None), verdict) for words, lines, verdict in every]
 
 
-def _step(series: Series) -> float:
+def _step(series: Sequence[Pair]) -> float:
     own = series[0][0]
     return _found(r"every (\S+) s", own.text["points"])
 
@@ -232,27 +196,14 @@ def _history(bench: Bench, law: str, ax: Axes) -> None:
     ax.set_yscale("symlog", linthresh=0.1)
 
 
-def _divergence(series: Series, ax: Axes) -> None:
-    for number, (_, line) in enumerate(series):
+def _divergence(series: Series, law: str, ax: Axes) -> None:
+    marks: list[Mark] = []
+    for number, (_, line) in enumerate(series[law]):
         if line is None:
             continue
-        ax.plot(
-            line.time,
-            line.mean_log_distance,
-            color=colours[0],
-            lw=0.8,
-            alpha=0.7,
-            label="neighbours, each start" if number == 0 else None,
-        )
+        marks.append(Curve(line.time, line.mean_log_distance, "neighbours, each start" if number == 0 else None, opacity=0.7, width=0.8))
         if line.exponent is not None and line.fit is not None:
             time, values = line.time[line.fit[0] : line.fit[1] + 1], line.mean_log_distance[line.fit[0] : line.fit[1] + 1]
-            ax.plot(
-                time,
-                values.mean() + line.exponent * (time - time.mean()),
-                color=colours[1],
-                lw=1.6,
-                alpha=0.7,
-                label="line over 80 samples" if number == 0 else None,
-            )
-    ax.margins(x=0)
-    finish(ax, "time [s]", "mean ln distance")
+            fitted = values.mean() + line.exponent * (time - time.mean())
+            marks.append(Curve(time, fitted, "line over 80 samples" if number == 0 else None, colours[1], 0.7, 1.6))
+    plot(Panel(marks, Axis("time", "s", tight=True), Axis("mean ln distance")), ax)

@@ -7,13 +7,13 @@ from functools import partial
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
-from slideway.palette import colours
-from slideway.plot.style import finish
+from slideway.figures.marks import Axis, Cloud, Panel
+from slideway.plot.axes import draw as plot
 
-from .claims import LAW_WORDS, LAWS, UNTOLD, Claim, Finding, Verdict, claim, growth, said
+from .claims import UNTOLD, Claim, Finding, Verdict, claim, said
 from .estimates import estimate
 from .plan import MAPS, crank
-from .sections import Bench, Section, Table, draw
+from .sections import Bench, Quantity, Section, by_law, draw
 
 CRANK, ROD = 0.05, 0.1422  # m
 SPEED = np.pi  # rad/s
@@ -25,39 +25,28 @@ def section(bench: Bench) -> Section:
         "Fig. 17: the map of (x, vx)",
         [
             "x and vx follow from the states across the way, for the rod is rigid: at crank angle 0 x = r + √(L² − y² − z²), so that x is of second order in the "
-            "clearance (micrometres and less), and vx of first order. The paper does not say at which angle its map is taken.",
+            "clearance (micrometres and less), and vx of first order. The paper does not say at which angle its map is taken."
         ],
     )
     page.claims = [_scattered(bench)]
+    cases = {words: str(clearance) for words, clearance in MAPS.items()}
     for what, index, unit, factor in (("x", 0, "nm", 1e9), ("vx", 1, "µm/s", 1e6)):
-        for power, words in ((0, "wider"), (1, "wider, even in units of what the clearance allows")):
-            columns = {law: [_spread(bench, c, law)[index] / (_room(c)[index] if power else 1) for c in MAPS.values()] for law in LAWS}
-            # What a drift of the resting slider by a thousandth of its room makes is no scatter.
-            floor = 1e-3 if power else 1e-3 * _room(0.08)[index]
-            page.claims.append(
-                growth(
-                    "Fig. 17a–d",
-                    f"The map spreads {words} with larger clearance (sd of {what}).",
-                    list(MAPS),
-                    columns,
-                    "" if power else unit,
-                    1.0 if power else factor,
-                    floor,
-                )
-            )
+        # What a drift of the resting slider by a thousandth of its room makes is no scatter.
+        words, floor = f"The map spreads wider with larger clearance (sd of {what}).", 1e-3 * _room(0.08)[index]
+        page.claims.append(bench.growth("Fig. 17a–d", words, _spread_of(index, False), cases, "settled", unit, factor, floor))
+        words = f"The map spreads wider, even in units of what the clearance allows with larger clearance (sd of {what})."
+        page.claims.append(bench.growth("Fig. 17a–d", words, _spread_of(index, True), cases, "settled", "", 1.0, 1e-3))
     page.claims.append(_dimension(bench))
     page.figures = [draw(f"Fig. 17: the map, {words}, 150 revolutions of one start.", partial(_map, bench, c)) for words, c in MAPS.items()]
-    rows = []
-    for words, c in MAPS.items():
-        row = [words]
-        for law in LAWS:
-            x, vx = _spread(bench, c, law)
-            mean = np.array([v.mean() for _, v in _points(bench, c, law)])
-            row += [said(estimate(x), "", 1e9), said(estimate(vx), "", 1e6), said(estimate(mean), "", 1e6)]
-        rows.append(row)
-    heads = ("sd of x [nm]", "sd of vx [µm/s]", "mean of vx [µm/s]")
+
+    def cells(clearance: float, law: str) -> list[str]:
+        x, vx = _spread(bench, clearance, law)
+        mean = np.array([v.mean() for _, v in _points(bench, clearance, law)])
+        return [said(estimate(x), "", 1e9), said(estimate(vx), "", 1e6), said(estimate(mean), "", 1e6)]
+
+    columns = ("sd of x [nm]", "sd of vx [µm/s]", "mean of vx [µm/s]")
     page.tables = [
-        Table("Spread of the map.", ["clearance", *(f"{LAW_WORDS[law]}: {w}" for law in LAWS for w in heads)], rows),
+        by_law("Spread of the map.", "clearance", columns, {words: partial(cells, c) for words, c in MAPS.items()}),
         bench.audit("map", [(w, crank(c)) for w, c in MAPS.items()], "settled", bench.scale.map_transient + bench.scale.map_revolutions),
     ]
     return page
@@ -75,14 +64,11 @@ def along(y: np.ndarray, z: np.ndarray, vy: np.ndarray, vz: np.ndarray) -> tuple
 def correlation_dimension(points: np.ndarray) -> float:
     """Slope of ln C(r) over ln r, C the share of pairs nearer than r, between its 2 % and 20 % quantiles.
 
-        Source: Grassberger and Procaccia, Physica D 9 (1983) 189. Coordinates are scaled to unit deviation.
+    Source: Grassberger and Procaccia, Physica D 9 (1983) 189. Coordinates are scaled to unit deviation.
 
-        >>> from functools import partial
-
-    import numpy as np
-        >>> line = np.linspace(0, 1, 400)
-        >>> round(correlation_dimension(np.stack([line, line], axis=1)), 1)
-        1.0
+    >>> line = np.linspace(0, 1, 400)
+    >>> round(correlation_dimension(np.stack([line, line], axis=1)), 1)
+    1.0
     """
     deviation = points.std(axis=0)
     if len(points) < 10 or not (deviation > 0).all():
@@ -107,6 +93,11 @@ def _spread(bench: Bench, clearance: float, law: str) -> tuple[np.ndarray, np.nd
     return np.array([x.std() for x, _ in points]), np.array([v.std() for _, v in points])
 
 
+def _spread_of(index: int, of_room: bool) -> Quantity:
+    """Of x (0) or vx (1), or in units of what the clearance allows."""
+    return lambda bench, case, window, law: _spread(bench, float(case), law)[index] / (_room(float(case))[index] if of_room else 1)
+
+
 def _room(clearance: float) -> tuple[float, float]:
     """Deviations of x [m] and vx [m/s] that y = c makes; the clearance c in mm."""
     y = 1e-3 * clearance
@@ -114,38 +105,27 @@ def _room(clearance: float) -> tuple[float, float]:
 
 
 def _scattered(bench: Bench) -> Claim:
-    findings = {}
-    for law in LAWS:
-        shares = [_spread(bench, c, law)[1] / _room(c)[1] for c in MAPS.values()]
-        taken = [estimate(s) for s in shares]
+    def finding(law: str) -> Finding:
+        taken = [estimate(_spread(bench, c, law)[1] / _room(c)[1]) for c in MAPS.values()]
         lines = tuple(f"{w}: {said(t, '')}" for w, t in zip(MAPS, taken, strict=True))
-        answer = True if all(t.low > 0.01 for t in taken) else False if all(t.high < 0.01 for t in taken) else None
-        findings[law] = Finding(lines, answer)
-    return claim(
-        "Fig. 17",
-        "The map is scattered: the motion does not repeat (sd of vx above a hundredth of c r ω/L, what the clearance allows).",
-        findings,
-    )
+        return Finding(lines, True if all(t.low > 0.01 for t in taken) else False if all(t.high < 0.01 for t in taken) else None)
+
+    words = "The map is scattered: the motion does not repeat (sd of vx above a hundredth of c r ω/L, what the clearance allows)."
+    return claim("Fig. 17", words, finding)
 
 
 def _dimension(bench: Bench) -> Claim:
-    findings = {}
-    for law in LAWS:
-        slopes = np.array([correlation_dimension(np.stack(p, axis=1)) for p in _points(bench, 0.1, law)])
-        taken = estimate(slopes)
-        words = (
-            f"correlation dimension at 0.1 mm: {said(taken, '')}" if law == "paper" else f"of what is left of the spread: {said(taken, '')}"
-        )
-        findings[law] = Finding((words,), None)
+    def finding(law: str) -> Finding:
+        taken = said(estimate(np.array([correlation_dimension(np.stack(p, axis=1)) for p in _points(bench, 0.1, law)])), "")
+        return Finding((f"correlation dimension at 0.1 mm: {taken}" if law == "paper" else f"of what is left of the spread: {taken}",), None)
+
     verdict = Verdict("cannot be told from 150 points; 2 would be a plane that is filled without structure", UNTOLD.kind)
-    return claim("4.7.1", 'The points have "certain fractal dimension characteristics".', findings, verdict)
+    return claim("4.7.1", 'The points have "certain fractal dimension characteristics".', finding, verdict)
 
 
 def _map(bench: Bench, clearance: float, law: str, ax: Axes) -> None:
     x, vx = _points(bench, clearance, law)[0]
-    ax.plot(1e9 * x, 1e3 * vx, ".", ms=4, color=colours[0], alpha=0.8)
     # A map that repeats is one dot in the room that the clearance leaves, not a magnified rounding error.
     room_x, room_vx = _room(clearance)
-    ax.set_xlim(-2.2e9 * room_x, 0.1e9 * room_x)
-    ax.set_ylim(-1.3e3 * room_vx, 1.3e3 * room_vx)
-    finish(ax, "x − (r + L) [nm]", "vx [mm/s]")
+    across, up = Axis("x − (r + L)", "nm", low=-2.2e9 * room_x, high=0.1e9 * room_x), Axis("vx", "mm/s", low=-1.3e3 * room_vx, high=1.3e3 * room_vx)
+    plot(Panel([Cloud(1e9 * x, 1e3 * vx, opacity=0.8, size=14)], across, up), ax)

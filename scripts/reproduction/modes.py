@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
+from slideway.figures.marks import Axis, Cloud, Panel
 from slideway.palette import class_colours
-from slideway.plot.style import finish
+from slideway.plot.axes import draw as plot
 
-from .claims import LAW_WORDS, LAWS, Claim, Finding, claim, said
+from .claims import LAWS, Claim, Finding, claim, said
 from .estimates import Change, difference, estimate
-from .sections import WINDOWS, Bench, Section, Table, draw, wide_scale
+from .sections import WINDOWS, Bench, Section, by_law, draw, wide_range
 
 CLASSES = ("point", "line", "surface")
 
@@ -21,27 +24,23 @@ def section(bench: Bench) -> Section:
         "Fig. 11: contact forces by mode",
         [
             "The paper draws columns of force over time, by contact mode. Which force stands at which moment belongs to one orbit; shares of time and forces "
-            "of each mode belong to the mechanism. A moment is counted by its hardest contact: a surface, else a line, else a point.",
+            "of each mode belong to the mechanism. A moment is counted by its hardest contact: a surface, else a line, else a point."
         ],
     )
     forces = {law: _forces(bench, law) for law in LAWS}
     page.claims = [*(_occur(bench, w) for w in WINDOWS), _differ(forces), *(_peaks(bench, w) for w in WINDOWS)]
     page.figures = [
-        draw("How often which force acts.", lambda law, ax: _histogram(bench, law, ax)),
-        draw("Fig. 11: the force over a revolution, one start, coloured by mode.", lambda law, ax: _strip(bench, law, ax)),
+        draw("How often which force acts.", partial(_histogram, bench)),
+        draw("Fig. 11: the force over a revolution, one start, coloured by mode.", partial(_strip, bench)),
     ]
-    rows = []
-    for mode in ("free", *CLASSES):
-        row = [mode]
-        for law in LAWS:
-            row.append(said(estimate(_share(bench, law, mode)), "%", 100))
-            row.append(
-                "0" if mode == "free" else said(estimate(forces[law][mode]), "") if np.isfinite(forces[law][mode]).any() else "at no sample"
-            )
-        rows.append(row)
-    columns = ("time", "mean force while it lasts [N]")
+
+    def cells(mode: str, law: str) -> list[str]:
+        force = "0" if mode == "free" else said(estimate(forces[law][mode]), "") if np.isfinite(forces[law][mode]).any() else "at no sample"
+        return [said(estimate(_share(bench, law, mode)), "%", 100), force]
+
+    rows = {mode: partial(cells, mode) for mode in ("free", *CLASSES)}
     page.tables = [
-        Table("Contact modes of a revolution.", ["mode", *(f"{LAW_WORDS[law]}: {c}" for law in LAWS for c in columns)], rows),
+        by_law("Contact modes of a revolution.", "mode", ("time", "mean force while it lasts [N]"), rows),
         bench.audit("crank", [("0.15 mm", "0.15mm")], "settled", bench.scale.revolutions),
     ]
     return page
@@ -69,41 +68,35 @@ def _forces(bench: Bench, law: str) -> dict[str, np.ndarray]:
 
 
 def _occur(bench: Bench, window: str) -> Claim:
-    findings = {}
-    for law in LAWS:
+    def finding(law: str) -> Finding:
         shares = {mode: estimate(_share(bench, law, mode, window)) for mode in CLASSES}
         answer = True if all(s.low > 0 for s in shares.values()) else False if any(s.mean == 0 for s in shares.values()) else None
-        findings[law] = Finding(tuple(f"{mode}: {said(s, '% of the time', 100)}" for mode, s in shares.items()), answer)
-    return claim("Fig. 11, 4.6", f"The contact switches between points, lines and surfaces: all three occur, {WINDOWS[window]}.", findings)
+        return Finding(tuple(f"{mode}: {said(s, '% of the time', 100)}" for mode, s in shares.items()), answer)
+
+    return claim("Fig. 11, 4.6", f"The contact switches between points, lines and surfaces: all three occur, {WINDOWS[window]}.", finding)
 
 
 def _differ(forces: dict[str, dict[str, np.ndarray]]) -> Claim:
     """Mean forces of each member in its modes, from mode to mode."""
-    findings = {}
-    for law in LAWS:
+
+    def finding(law: str) -> Finding:
         there = [mode for mode in CLASSES if np.isfinite(forces[law][mode]).sum() >= 2]
         lines = tuple(f"{mode}: {said(estimate(forces[law][mode]), 'N')}" for mode in there)
-        changes = [difference(forces[law][a], forces[law][b]).change for a, b in zip(there, there[1:])]
-        answer = (
-            True
-            if any(c in (Change.RISES, Change.FALLS) for c in changes)
-            else False
-            if changes and all(c is Change.SAME for c in changes)
-            else None
-        )
-        findings[law] = Finding(lines or ("no contact at any sample",), answer)
-    return claim("4.2.3", "The contact force differs between the modes, when settled.", findings)
+        changes = {difference(forces[law][a], forces[law][b]).change for a, b in zip(there, there[1:])}
+        return Finding(lines or ("no contact at any sample",), True if changes & {Change.RISES, Change.FALLS} else False if changes == {Change.SAME} else None)
+
+    return claim("4.2.3", "The contact force differs between the modes, when settled.", finding)
 
 
 def _peaks(bench: Bench, window: str) -> Claim:
-    findings = {}
-    for law in LAWS:
+    def finding(law: str) -> Finding:
         peak = bench.values("crank", "0.15mm", window, law, "peak_normal_force")
         ratio = estimate(peak / bench.values("crank", "0.15mm", window, law, "mean_normal_force"))
         lines = (f"peak force {said(estimate(peak), 'N')}", f"peak over mean: {said(ratio, '')}")
-        findings[law] = Finding(lines, True if ratio.low > 10 else False if ratio.high < 10 else None)
+        return Finding(lines, True if ratio.low > 10 else False if ratio.high < 10 else None)
+
     words = "The force changes abruptly: impacts, more than ten times the mean force, stand out of it"
-    return claim("4.2.3, 4.5", f"{words}, {WINDOWS[window]}.", findings)
+    return claim("4.2.3, 4.5", f"{words}, {WINDOWS[window]}.", finding)
 
 
 def _histogram(bench: Bench, law: str, ax: Axes) -> None:
@@ -113,10 +106,6 @@ def _histogram(bench: Bench, law: str, ax: Axes) -> None:
 def _strip(bench: Bench, law: str, ax: Axes) -> None:
     time = bench.result("crank", "0.15mm", "dense", law)["time"].values
     force = bench.series("crank", "0.15mm", "dense", law, "normal_force")[0]
-    for mode, there in _classes(bench, law).items():
-        here = there[0] & (force > 0)
-        if here.any():
-            ax.plot(time[here], force[here], ".", ms=2.5, color=class_colours[mode], label=mode)
-    wide_scale(ax, force[force > 0])
-    finish(ax, "time [s]", "normal force [N]")
-    ax.legend(loc="upper right", markerscale=3, frameon=True, framealpha=0.85, edgecolor="none", fontsize="small")
+    here = {mode: there[0] & (force > 0) for mode, there in _classes(bench, law).items()}
+    clouds = [Cloud(time[on], force[on], mode, class_colours[mode], size=5) for mode, on in here.items() if on.any()]
+    plot(Panel(clouds, Axis("time", "s"), Axis("normal force", "N", log=wide_range(force[force > 0]))), ax)

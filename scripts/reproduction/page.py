@@ -19,12 +19,8 @@ def page(sections: Sequence[Section], facts: Sequence[str], failures: Sequence[s
         facts: lines about how it was made.
         failures: lines about parts that could not be made.
     """
-    style = (Path(__file__).parent / "style.css").read_text(encoding="utf-8")
     claims = [claim for section in sections for claim in section.claims]
     parts = [
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">',
-        f"<title>Qian et al. (2020), reproduced</title><style>{style}</style></head><body>",
-        "<h1>Every table and figure, under both contact laws</h1>",
         "<p>Qian, Qin, Yan, Zhang, <em>Mech. Mach. Theory</em> 145 (2020) 103717, claim by claim. The <strong>law as published</strong> switches each face between surface, "
         "line and point contact; its force jumps there, and the jumps make energy. The <strong>conservative law</strong> has the same contacts in one potential: no switching, "
         "no energy from nowhere. What holds under both is mechanics; what holds under the first alone is made by the law.</p>",
@@ -36,18 +32,22 @@ def page(sections: Sequence[Section], facts: Sequence[str], failures: Sequence[s
         _contents(sections, claims),
     ]
     parts += [_section(number, section) for number, section in enumerate(sections)]
-    return "\n".join(parts) + "\n</body></html>\n"
+    return html("Qian et al. (2020), reproduced", "Every table and figure, under both contact laws", parts)
+
+
+def html(title: str, heading: str, parts: Sequence[str]) -> str:
+    """A page that needs no other file."""
+    style = (Path(__file__).parent / "style.css").read_text(encoding="utf-8")
+    head = '<head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
+    head += f"\n<title>{escape(title)}</title><style>{style}</style></head>"
+    return "\n".join([f'<!DOCTYPE html>\n<html lang="en">{head}<body>\n<h1>{escape(heading)}</h1>', *parts, "</body></html>\n"])
 
 
 def _contents(sections: Sequence[Section], claims: Sequence[Claim]) -> str:
     rows = []
     for number, section in enumerate(sections):
-        counts = Counter(
-            (c.verdict.kind, c.verdict.words if c.verdict.kind != "open" else "undecided or not to be told") for c in section.claims
-        )
-        verdicts = "<br>".join(
-            f'<span class="verdict {kind}">{count} × {escape(words)}</span>' for (kind, words), count in counts.most_common()
-        )
+        counts = Counter((c.verdict.kind, c.verdict.words if c.verdict.kind != "open" else "undecided or not to be told") for c in section.claims)
+        verdicts = "<br>".join(f'<span class="verdict {kind}">{count} × {escape(words)}</span>' for (kind, words), count in counts.most_common())
         rows.append(f'<tr><td><a href="#part{number}">{escape(section.title)}</a></td><td>{verdicts or "parameters alone"}</td></tr>')
     return f'<div class="wide"><table><caption>{len(claims)} claims</caption><tbody>{"".join(rows)}</tbody></table></div>'
 

@@ -20,18 +20,7 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-UNITS = {
-    "y": "m",
-    "z": "m",
-    "vy": "m/s",
-    "vz": "m/s",
-    "roll": "rad",
-    "yaw": "rad",
-    "pitch": "rad",
-    "wx": "rad/s",
-    "wy": "rad/s",
-    "wz": "rad/s",
-}
+UNITS = {"y": "m", "z": "m", "vy": "m/s", "vz": "m/s", "roll": "rad", "yaw": "rad", "pitch": "rad", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"}
 """Of the states that a start has."""
 
 

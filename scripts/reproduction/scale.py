@@ -46,48 +46,11 @@ class Scale:
     verified: int | None = None
 
 
-FULL = Scale(
-    members=64,
-    carriages=48,
-    dense_members=8,
-    dense_samples=20000,
-    dense_revolutions=1,
-    crank_samples=1000,
-    carriage_samples=4000,
-    carriage_revolutions=1,
-    revolutions=2,
-    maps=8,
-    map_transient=20,
-    map_revolutions=150,
-    exponents=32,
-    exponent_transient=2,
-    exponent_revolutions=8,
-    exponent_history=100,
-    series=8,
-    series_revolutions=30,
-    series_samples=200,
-    verified=64,
-)
+FULL = Scale(members=64, carriages=48, dense_members=8, dense_samples=20000, dense_revolutions=1, crank_samples=1000, carriage_samples=4000,
+             carriage_revolutions=1, revolutions=2, maps=8, map_transient=20, map_revolutions=150, exponents=32, exponent_transient=2,
+             exponent_revolutions=8, exponent_history=100, series=8, series_revolutions=30, series_samples=200, verified=64)  # fmt: skip
 # Seconds in all: every run and every judgement is there, and no number means anything.
-TINY = Scale(
-    members=3,
-    carriages=2,
-    dense_members=2,
-    dense_samples=20000,
-    dense_revolutions=0.02,
-    crank_samples=4000,
-    carriage_samples=10000,
-    carriage_revolutions=0.01,
-    revolutions=0.02,
-    maps=2,
-    map_transient=0,
-    map_revolutions=10,
-    exponents=2,
-    exponent_transient=0,
-    exponent_revolutions=0.02,
-    exponent_history=10,
-    series=2,
-    series_revolutions=2,
-    series_samples=100,
-)
+TINY = Scale(members=3, carriages=2, dense_members=2, dense_samples=20000, dense_revolutions=0.02, crank_samples=4000, carriage_samples=10000,
+             carriage_revolutions=0.01, revolutions=0.02, maps=2, map_transient=0, map_revolutions=10, exponents=2, exponent_transient=0,
+             exponent_revolutions=0.02, exponent_history=10, series=2, series_revolutions=2, series_samples=100)  # fmt: skip
 SCALES = {"full": FULL, "tiny": TINY}

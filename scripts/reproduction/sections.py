@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import matplotlib
 
@@ -16,7 +17,7 @@ import slideway
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .claims import LAW_WORDS, LAWS, Claim, said
+from .claims import LAW_WORDS, LAWS, Claim, growth, said
 from .estimates import estimate
 from .plan import name
 from .runs import Laboratory, Missing
@@ -39,6 +40,17 @@ class Table:
     caption: str
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
+
+
+def by_law(caption: str, head: str, columns: Sequence[str], rows: Mapping[str, Callable[[str], Sequence[str]]]) -> Table:
+    """A table with the same columns under each law.
+
+    Args:
+        head: of the first column, the rows' names.
+        rows: by their names, what gives the cells under a law.
+    """
+    header = [head, *(f"{LAW_WORDS[law]}: {column}" for law in LAWS for column in columns)]
+    return Table(caption, header, [[name, *(cell for law in LAWS for cell in cells(law))] for name, cells in rows.items()])
 
 
 @dataclass
@@ -104,29 +116,44 @@ class Bench:
             cases: their words and names.
             revolutions: of the runs.
         """
-        rows = []
-        for words, case in cases:
-            row = [words]
-            for law in LAWS:
-                made, work, seconds = (
-                    self.values(family, case, stage, law, name) for name in ("energy_residual", "drive_work", "end_time")
-                )
-                share = estimate(made).mean / estimate(work).mean
-                self.shares[law].append(share)
-                turn = 1e3 / revolutions
-                row += [
-                    said(estimate(turn * made), ""),
-                    said(estimate(1e3 * made / seconds), ""),
-                    said(estimate(turn * work), ""),
-                    f"{100 * share:.2g} %" if abs(share) > 1e-4 else "below 0.01 %",
-                ]
-            rows.append(row)
+        turn = 1e3 / revolutions
+
+        def cells(case: str, law: str) -> list[str]:
+            made, work, seconds = (self.values(family, case, stage, law, name) for name in ("energy_residual", "drive_work", "end_time"))
+            share = estimate(made).mean / estimate(work).mean
+            self.shares[law].append(share)
+            return [said(estimate(turn * made), ""), said(estimate(1e3 * made / seconds), ""), said(estimate(turn * work), ""),
+                    f"{100 * share:.2g} %" if abs(share) > 1e-4 else "below 0.01 %"]  # fmt: skip
+
+        caption = "Energy that the contact law made out of nothing (the residual ε of the audit), beside the work of the drive."
         columns = ("made [mJ a turn]", "made [mJ/s]", "drive's work [mJ a turn]", "share")
-        return Table(
-            "Energy that the contact law made out of nothing (the residual ε of the audit), beside the work of the drive.",
-            ["energy audit", *(f"{LAW_WORDS[law]}: {what}" for law in LAWS for what in columns)],
-            rows,
-        )
+        return by_law(caption, "energy audit", columns, {words: partial(cells, case) for words, case in cases})
+
+    def growth(
+        self, place: str, words: str, quantity: Quantity, cases: Mapping[str, str], window: str, unit: str, factor: float = 1.0, floor: float = 0.0
+    ) -> Claim:
+        """The claim that a quantity grows from case to case (:func:`claims.growth`)."""
+        columns = {law: [quantity(self, case, window, law) for case in cases.values()] for law in LAWS}
+        return growth(place, words, list(cases), columns, unit, factor, floor)
+
+
+Quantity = Callable[[Bench, str, str, str], np.ndarray]
+"""Of bench, case, window and law: a value of each member."""
+
+
+def values(quantity: str, *entries: str, family: str = "crank", factor: float = 1.0) -> Quantity:
+    """A stored quantity; of several entries the root of the sum of their squares."""
+
+    def of(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
+        parts = [bench.values(family, case, window, law, quantity, entry) for entry in entries or (None,)]
+        return np.asarray(factor * (np.sqrt(np.sum(np.square(parts), axis=0)) if len(parts) > 1 else parts[0]))
+
+    return of
+
+
+def measured(name: str, measure: Callable[[np.ndarray], np.ndarray]) -> Quantity:
+    """A measure of a series, member × sample."""
+    return lambda bench, case, window, law: np.asarray(measure(bench.series("crank", case, window, law, name)))
 
 
 def draw(caption: str, painter: Callable[[str, Axes], None], height: float = 3.9) -> Figure:
@@ -150,7 +177,6 @@ def draw(caption: str, painter: Callable[[str, Axes], None], height: float = 3.9
     return Figure(caption, images)
 
 
-def wide_scale(ax: Axes, values: np.ndarray) -> None:
-    """A logarithmic axis where there are more than two decades to show."""
-    if values.size and values.max() > 100 * values.min():
-        ax.set_yscale("log")
+def wide_range(values: np.ndarray) -> bool:
+    """Whether there are more than two decades to show, for which an axis should be logarithmic."""
+    return bool(values.size and values.max() > 100 * values.min())

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from reproduction import estimates
 
 from . import ideal
 from .machines import Carriage, Press, acceleration, ideal_press, lifting
-from .runs import Case, Fit, Outcome, Spatial, alone, fits, hydraulic_work, interval, loosest, middle, names, pump
+from .runs import Case, Fit, Outcome, Spatial, alone, fits, hydraulic_work, loosest, middle, names, pump
 
 rejected_cost = 3.0  # of a crosshead that fails at its test, beside making it; relative to making the loosest
 
@@ -32,9 +33,8 @@ class Found:
 
 def share(met: np.ndarray) -> str:
     """Per cent with its interval."""
-    count, of = int(np.sum(met)), met.size
-    low, high = interval(count, of)
-    return f"{100 * count / of:.1f} % ({100 * low:.1f} … {100 * high:.1f})"
+    found = estimates.share(met, np.ones_like(met))
+    return f"{100 * found.mean:.1f} % ({100 * found.low:.1f} … {100 * found.high:.1f})"
 
 
 def quantile(values: np.ndarray, at: float) -> float:
@@ -106,8 +106,8 @@ def half_width(tightened: list[dict[str, Outcome]]) -> float:
     """The largest distance of a share that meets both limits from an end of its interval."""
     far = 0.0
     for outcome in (outcome for each in tightened for outcome in each.values()):
-        met, of = int(np.sum(outcome.good)), outcome.good.size
-        far = max([far, *(abs(end - met / of) for end in interval(met, of))])
+        met = estimates.share(outcome.good, np.ones_like(outcome.good))
+        far = max(far, met.mean - met.low, met.high - met.mean)
     return far
 
 
@@ -162,7 +162,7 @@ def trust(verdicts: list[dict[str, str]]) -> str:
 def page(root: Path, found: Found) -> str:
     """All of it as Markdown."""
     rigid, compliant, best = found.rigid, found.compliant, cheapest(found.rigid)
-    here, loose = fits.index(best), found.tightened[0]
+    loose = found.tightened[0]
     least, most = limits_of(rigid)
     fewer = np.mean([b.evaluations for b in compliant]) / np.mean([a.evaluations for a in rigid])
     apart = max(abs(float(np.mean(b.impacts) / np.mean(a.impacts)) - 1) for a, b in zip(rigid, compliant, strict=True))

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import slideway
-from pictures.figures import frame
-from pictures.style import as_svg, panels
+from pictures.style import as_svg, axes_of, picture
+from slideway.figures.marks import Axis, Curve, Level, Mark, Panel
 from slideway.palette import colours, grey, limit_colour
+from slideway.plot.axes import frame
 
 from . import ideal
 from .machines import Carriage, Press, ideal_press, lifting
@@ -17,26 +18,21 @@ from .runs import Outcome, fits, pump
 
 def losses(rigid: list[Outcome], compliant: list[Outcome]) -> str:
     """How the energy of impacts is distributed for each fit, and the limit; as SVG."""
-    figure, (ax,) = panels(height=3.6)
-    frame(ax, "energy lost in impacts, a turn [mJ]", "share of crossheads below")
-    for colour, fit, stiff, soft in zip(colours, fits, rigid, compliant, strict=False):
-        for of, style, label in ((stiff, "-", fit.name), (soft, ":", None)):
+    curves = []
+    for colour, fit, *both in zip(colours, fits, rigid, compliant, strict=False):
+        for of, dash, label in zip(both, ("-", ":"), (fit.name, None), strict=True):
             ordered = 1e3 * np.sort(of.impacts)
             chosen = np.unique(np.linspace(0, ordered.size - 1, 160).astype(int))
-            ax.plot(ordered[chosen], (chosen + 0.5) / ordered.size, style, color=colour, lw=2, label=label)
-    ax.plot([], [], ":", color="#555555", lw=2, label="compliant contacts")
-    ax.axvline(1e3 * pump.impact_limit, color=limit_colour, lw=1.2, label="limit")
-    ax.set_xscale("log")
-    ax.set_xticks([0.2, 0.5, 1, 2, 5, 10], ["0.2", "0.5", "1", "2", "5", "10"])
-    ax.minorticks_off()
-    ax.set_ylim(0, 1.01)
-    figure.legend(loc="outside lower center", ncols=3, frameon=False)
-    return as_svg(figure)
+            curves.append(Curve(ordered[chosen], (chosen + 0.5) / ordered.size, label, colour, width=2, dash=dash))
+    of_others = Curve(np.empty(0), np.empty(0), "compliant contacts", "#555555", width=2, dash=":")
+    limit = Level(1e3 * pump.impact_limit, "x", "limit", limit_colour, 1.2)
+    lost = Axis("energy lost in impacts, a turn", "mJ", log=True, ticks={value: f"{value:g}" for value in (0.2, 0.5, 1, 2, 5, 10)})
+    return picture([Panel([*curves, of_others, limit], lost, Axis("share of crossheads below", low=0, high=1.01))], height=3.6, below=3)
 
 
 def worn(root: Path) -> str:
     """Side force and wear over the way; how the crosshead leans meanwhile, in its second turn."""
-    figure, (above, below) = panels(2, height=4.6)
+    figure, (above, below) = axes_of(2, height=4.6)
     one = ideal.turn(root, 0.08)
     above.plot(1e3 * one.x, -one.side, color=colours[0], lw=1.4)
     frame(above, "place of the slider's centre, and along the way [mm]", "side force down [N]")
@@ -63,22 +59,18 @@ def worn(root: Path) -> str:
 
 def machines(root: Path, presses: list[Press], carriages: list[Carriage]) -> str:
     """The press's drop over its flywheel, the carriage's lean over the height of its mass."""
-    figure, (left, right) = panels(1, 2, height=3.4)
-    inertia = np.geomspace(presses[0].inertia, presses[-1].inertia, 40)
-    left.plot(inertia, 100 * ideal_press(root, inertia), color=grey, lw=1.2, label="closed form")
-    for one in presses:
-        left.plot([one.inertia] * 2, 100 * np.quantile(one.drop, [0.01, 0.99]), color=colours[0], lw=2.4, solid_capstyle="butt")
-    left.plot([one.inertia for one in presses], [100 * np.mean(one.drop) for one in presses], "o", color=colours[0], ms=4, label="presses, 98 %")
-    left.axhline(10, color=limit_colour, lw=1.2, ls="--")
-    left.set_xscale("log")
-    left.set_xticks([one.inertia for one in presses], [f"{one.inertia:g}" for one in presses])
-    left.minorticks_off()
-    left.set_ylim(0, None)
-    left.legend(frameon=False)
-    frame(left, "flywheel [kg m²]", "speed lost in a stroke [%]")
+    inertia, wheels = np.geomspace(presses[0].inertia, presses[-1].inertia, 40), np.array([one.inertia for one in presses])
+    low, high = (100 * np.array([np.quantile(one.drop, part) for one in presses]) for part in (0.01, 0.99))
+    means = 100 * np.array([np.mean(one.drop) for one in presses])
+    left = [
+        Curve(inertia, 100 * ideal_press(root, inertia), "closed form", grey), Level(10, colour=limit_colour, width=1.2, dash="--"),
+        Curve(wheels, means, "presses, 98 %", dash="", marker="o", low=low, high=high),
+    ]  # fmt: skip
+    right: list[Mark] = []
     for one, colour in zip(carriages, colours, strict=False):
-        right.plot(1e3 * one.heights, 1e3 * one.leaning, "o-", color=colour, ms=3, lw=1.2, label=one.interpolation)
-        right.axvline(1e3 * lifting(root, one.interpolation), color=colour, lw=1, ls="--")
-    right.legend(frameon=False, loc="center left")
-    frame(right, "height of the mass [mm]", "largest pitch [mrad]")
-    return as_svg(figure)
+        right.append(Curve(1e3 * one.heights, 1e3 * one.leaning, one.interpolation, colour, marker="o", size=3))
+        right.append(Level(1e3 * lifting(root, one.interpolation), "x", colour=colour, dash="--"))
+    flywheel = Axis("flywheel", "kg m²", log=True, ticks={wheel: f"{wheel:g}" for wheel in wheels})
+    return picture([
+        Panel(left, flywheel, Axis("speed lost in a stroke", "%", low=0)), Panel(right, Axis("height of the mass", "mm"), Axis("largest pitch", "mrad")),
+    ], 2, 3.6, 5)  # fmt: skip

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -74,18 +73,6 @@ class Outcome:
     def good(self) -> np.ndarray:
         """Members that keep both limits."""
         return self.meet[2]
-
-
-def interval(count: int, of: int) -> tuple[float, float]:
-    """Wilson's 95 % interval of a share.
-
-    >>> [round(x, 3) for x in interval(90, 100)]
-    [0.826, 0.945]
-    """
-    z = 1.959964
-    share, spread = count / of, z * z / of
-    centre, half = share + spread / 2, z * math.sqrt(share * (1 - share) / of + spread / (4 * of))
-    return (centre - half) / (1 + spread), (centre + half) / (1 + spread)
 
 
 def scatter(vary: Mapping[str, Any]) -> dict[str, Any]:

@@ -5,30 +5,14 @@
 'time [s]'
 """
 
-from .chaos import divergence, exponent_histogram, exponent_history
+from ..figures.chaos import divergence, exponent_histogram, exponent_history
+from ..figures.orbits import bifurcation, exponent_sweep, orbit_yz, poincare
+from ..figures.precision import work_precision
+from ..figures.series import cumulative_area, force_histogram, spectrum, time_series
+from ..figures.tolerance import quantiles, sensitivity
 from .explanation import apex_forces
-from .forces import force_histogram
-from .orbits import orbit_yz, poincare
-from .precision import work_precision
-from .series import cumulative_area, time_series
-from .spectra import spectrum
-from .sweeps import bifurcation, exponent_sweep
-from .tolerance import quantiles, sensitivity
 
 __all__ = [
-    "apex_forces",
-    "bifurcation",
-    "cumulative_area",
-    "divergence",
-    "exponent_histogram",
-    "exponent_history",
-    "exponent_sweep",
-    "force_histogram",
-    "orbit_yz",
-    "poincare",
-    "quantiles",
-    "sensitivity",
-    "spectrum",
-    "time_series",
-    "work_precision",
-]
+    "apex_forces", "bifurcation", "cumulative_area", "divergence", "exponent_histogram", "exponent_history", "exponent_sweep", "force_histogram",
+    "orbit_yz", "poincare", "quantiles", "sensitivity", "spectrum", "time_series", "work_precision",
+]  # fmt: skip

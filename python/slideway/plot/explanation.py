@@ -9,7 +9,8 @@ from ..arguments import shown
 from ..errors import SlidewayError
 from ..explanation import Explanation
 from ..palette import class_colours, colours, grey
-from .style import axis, scaled
+from ..units import scaled
+from .axes import axis
 
 # Sides of the apices (model.md section 3).
 _sides = {f"P{k}": {"x": 1 if k <= 4 else -1, "y": 1 if k in (1, 4, 5, 8) else -1, "z": 1 if k in (1, 2, 5, 6) else -1} for k in range(1, 9)}

@@ -9,17 +9,13 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Signs (along X, Y, Z) of the apices P1 ... P8.
-APEX_SIGNS = np.array(
-    [[1, 1, 1], [1, -1, 1], [1, -1, -1], [1, 1, -1], [-1, 1, 1], [-1, -1, 1], [-1, -1, -1], [-1, 1, -1]], dtype=float
-)
+APEX_SIGNS = np.array([[1, 1, 1], [1, -1, 1], [1, -1, -1], [1, 1, -1], [-1, 1, 1], [-1, -1, 1], [-1, -1, -1], [-1, 1, -1]], dtype=float)
 # Faces as rings of apices, so that neighbours in a ring share an edge; numbers from 0.
 Y_FACES = ((0, 3, 7, 4), (1, 2, 6, 5))  # top, bottom
 Z_FACES = ((0, 1, 5, 4), (3, 2, 6, 7))  # front, back
 
 
-def spatial_depths(
-    y: Array, z: Array, attitude: Array, length: float, width: float, depth: float, gap_y: float, gap_z: float
-) -> Array:
+def spatial_depths(y: Array, z: Array, attitude: Array, length: float, width: float, depth: float, gap_y: float, gap_z: float) -> Array:
     """Penetrations of the sixteen apex-face pairs (model.md section 3, evaluated clearance first).
 
     Args:
@@ -33,9 +29,7 @@ def spatial_depths(
     """
     arm = np.stack(
         np.broadcast_arrays(
-            APEX_SIGNS[:, 0] * length / 2,
-            APEX_SIGNS[:, 1] * width / 2 - np.asarray(y)[:, None],
-            APEX_SIGNS[:, 2] * depth / 2 - np.asarray(z)[:, None],
+            APEX_SIGNS[:, 0] * length / 2, APEX_SIGNS[:, 1] * width / 2 - np.asarray(y)[:, None], APEX_SIGNS[:, 2] * depth / 2 - np.asarray(z)[:, None]
         ),
         -1,
     )
@@ -102,14 +96,3 @@ def planar_modes(touching: Flags) -> NDArray[np.int64]:
     surface = walls.all(2)
     points = walls.sum(2) * ~surface
     return np.stack([surface.sum(1), np.zeros(len(walls), int), points.sum(1)], 1)
-
-
-def mode_classes(triple: NDArray[np.int64]) -> NDArray[np.int64]:
-    """0 free, 1 point, 2 line, 3 surface: the stiffest contact of each configuration, as quantity mode_time counts it.
-
-    >>> from slideway.report.contact import mode_classes
-    >>> mode_classes(np.array([[0, 0, 0], [0, 1, 2], [1, 1, 0]])).tolist()
-    [0, 2, 3]
-    """
-    surfaces, lines, points = (triple[:, k] > 0 for k in range(3))
-    return np.where(surfaces, 3, np.where(lines, 2, np.where(points, 1, 0)))

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import xarray as xr
 
 import slideway
+from slideway.columns import Column, column, columns
 from slideway.ideal import drive_kind
 from slideway.way import mean_clearance, play
 
-from .columns import Column, column
-from .numbers import amount, percent
+from .findings import by_column, sweep_of
+from .numbers import amount, counted, percent
 
 CLEAN = 1e-3  # of the work: a residual that no conclusion of a study depends on
 SMALL = 1e-2  # one that a few members may have
@@ -139,17 +140,18 @@ def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
         if column(every, "energy_residual") is not None:
             return Verdict("none", "No energy audit", ["No member finished, so there is nothing to audit."])
         wanted = "energy_residual, drive_work, friction_loss and damping_loss"
-        return Verdict(
-            "none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."]
-        )
+        return Verdict("none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."])
     law = slideway.scene(result).get("contact", {}).get("law")
     name = "The contact law of corners" if law is None else f"The {law} law"
     if _switches(result, law):
         return _of_switching(terms, name)
     if law == "rigid":
         return _of_conserving(terms, "Rigid contacts hold no energy: restitution and friction take some, and both are in the balance.")
-    return _of_conserving(terms, f"{name} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone "
-                                 "take some, and both are in the balance.")
+    return _of_conserving(
+        terms,
+        f"{name} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone "
+        "take some, and both are in the balance.",
+    )
 
 
 def _switches(result: xr.Dataset, law: str | None) -> bool:
@@ -178,15 +180,10 @@ def _compared(terms: Balance) -> list[str]:
 
 def _of_conserving(terms: Balance, why: str) -> Verdict:
     part = share(terms)
-    found = [
-        f"The residual is {_amount(terms)}.",
-        *_compared(terms),
-        why,
-    ]
+    found = [f"The residual is {_amount(terms)}.", *_compared(terms), why]
     if math.isnan(part) or (part > CLEAN and not terms.complete):
         unknown = (
-            "Whether that is much cannot be said without the drive's work and the losses; add drive_work, friction_loss and "
-            "damping_loss to study.quantities."
+            "Whether that is much cannot be said without the drive's work and the losses; add drive_work, friction_loss and damping_loss to study.quantities."
         )
         return Verdict("none", f"Residual {joules(terms.residual)}", [*found, unknown])
     if part <= CLEAN:
@@ -194,10 +191,7 @@ def _of_conserving(terms: Balance, why: str) -> Verdict:
         return Verdict("good", f"Energy is kept to {percent(part)}", [*found, left])
     if part <= SMALL:
         mean = percent(abs(terms.residual) / terms.scale)
-        left = (
-            "What is left is error of the integration, and in the worst member more than need be: smaller integrator.rtol "
-            "and atol make it smaller."
-        )
+        left = "What is left is error of the integration, and in the worst member more than need be: smaller integrator.rtol and atol make it smaller."
         return Verdict("warn", f"Energy is kept to {mean} on average, {percent(part)} at worst", [*found, left])
     much = (
         "So this is no physics but error of the integration, and too much of it: use smaller integrator.rtol and atol, or "
@@ -209,10 +203,7 @@ def _of_conserving(terms: Balance, why: str) -> Verdict:
 def _of_switching(terms: Balance, law: str) -> Verdict:
     part = share(terms)
     found = f"The residual is {_amount(terms)}."
-    why = (
-        f"{law} switches between surface, line and point contact, and the force jumps where it does. "
-        "Each mode by itself keeps energy, the jumps do not."
-    )
+    why = f"{law} switches between surface, line and point contact, and the force jumps where it does. Each mode by itself keeps energy, the jumps do not."
     if part <= CLEAN:
         hardly = "Here the modes hardly switched under load, so hardly any energy was made."
         return Verdict("good", f"Energy is kept to {percent(part)}", [found, *_compared(terms), why, hardly])
@@ -220,9 +211,7 @@ def _of_switching(terms: Balance, law: str) -> Verdict:
         found += f" That is {joules(terms.residual / terms.duration)} in each second."
     sentences = [found, *_compared(terms), why]
     if terms.residual > 0:
-        made = (
-            percent(terms.residual / terms.scale) + f" of {terms.scale_name}" if terms.scale > 0 else joules(terms.residual)
-        )
+        made = percent(terms.residual / terms.scale) + f" of {terms.scale_name}" if terms.scale > 0 else joules(terms.residual)
         headline = f"The contact law made {made}"
         sentences.append(
             "So this is not physics: a real joint makes no energy. It is a property of the law, does not go away with smaller "
@@ -235,3 +224,29 @@ def _of_switching(terms: Balance, law: str) -> Verdict:
         sentences.append(f"Contact damping took {joules(terms.damping)}; the law made {joules(terms.residual)}.")
     sentences.append("Run the scene with --set contact.law=conservative to see what is left without it.")
     return Verdict("warn", headline, sentences)
+
+
+@dataclass(frozen=True)
+class Audit:
+    """The audit of a result: what it says, and the balance to draw."""
+
+    verdict: Verdict
+    balance: Balance | None
+    whose: str  # members whose means the balance has
+
+
+def audit(result: xr.Dataset, every: list[Column]) -> Audit:
+    """The audit of all members; of a sweep that of the column with the largest share, for columns are different mechanisms."""
+    sweep = sweep_of(result)
+    if sweep is None or column(every, "energy_residual") is None:
+        return Audit(verdict(result, every), balance(result, every), "the members")
+    audits = []
+    for value, part in by_column(result, sweep).items():
+        own = columns(part)
+        terms = balance(part, own)
+        size = share(terms) if terms else math.nan
+        audits.append((-1.0 if math.isnan(size) else size, value, verdict(part, own), terms))
+    _, value, worst, terms = max(audits, key=lambda audit: audit[0])
+    whose = f"the members with {sweep.named(value)}"
+    said = f"Column by column; this is the one with the largest share of {counted(len(audits), 'column')}, {sweep.named(value)}."
+    return Audit(Verdict(worst.grade, worst.headline, [said, *worst.sentences]), terms, whose)

@@ -60,19 +60,10 @@ def of_run(result: xr.Dataset) -> Facts:
     path = slideway.results.path_of(result)
     facts = [("file", f"{os.path.basename(path)} ({os.path.getsize(path) / 1e6:.3g} MB)")]
     names = {
-        "created": "created",
-        "version": "version",
-        "commit": "commit",
-        "compiler": "compiler",
-        "flags": "compiler flags",
-        "backend": "backend",
-        "isa": "instruction set",
-        "threads": "threads",
-        "machine": "machine",
-        "seed": "seed",
-        "completeness": "members in the file",
+        "created": "created", "version": "version", "commit": "commit", "compiler": "compiler", "flags": "compiler flags", "backend": "backend",
+        "isa": "instruction set", "threads": "threads", "machine": "machine", "seed": "seed", "completeness": "members in the file",
         "payload_hash": "hash of the data",
-    }
+    }  # fmt: skip
     facts += [(words, str(result.attrs[name])) for name, words in names.items() if name in result.attrs]
     return facts
 

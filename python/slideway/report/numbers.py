@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-import re
 
-_raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+from slideway.units import raised, scaled
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -21,40 +20,11 @@ def number(value: float, digits: int = 4) -> str:
         mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
         if "." in mantissa:
             mantissa = mantissa.rstrip("0").rstrip(".")
-        return f"{mantissa}·10{str(int(exponent)).translate(_raised)}".replace("-", "−")
+        return f"{mantissa}·10{str(int(exponent)).translate(raised)}".replace("-", "−")
     written = f"{value:.{digits}g}"
     if "e" in written:
         written = f"{float(written):.0f}"
     return written.replace("-", "−")
-
-
-_prefixes = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"))
-_prefixed = ("m", "s", "N", "J", "Pa", "rad", "N m", "m s-1", "m s-2", "rad s-1", "m/s", "rad/s")
-
-
-def scaled(size: float, unit: str) -> tuple[float, str]:
-    """By what to multiply numbers of about that size, and the unit that they then have.
-
-    >>> from slideway.report.numbers import scaled
-    >>> scaled(0.00374, "J"), scaled(4700.0, "N"), scaled(0.02, "1")
-    ((1000.0, 'mJ'), (0.001, 'kN'), (1.0, '1'))
-    """
-    if unit not in _prefixed or not math.isfinite(size) or size == 0:
-        return 1.0, unit
-    for factor, prefix in _prefixes:
-        if abs(size) >= 0.9999 * factor and (factor <= 1 or unit in ("N", "J", "Pa", "N m")):
-            return float(f"{1 / factor:.12g}"), prefix + unit
-    return 1.0, unit
-
-
-def unit_words(unit: str) -> str:
-    """A unit of a file as people write it.
-
-    >>> from slideway.report.numbers import unit_words
-    >>> unit_words("rad s-1"), unit_words("N m")
-    ('rad s⁻¹', 'N m')
-    """
-    return re.sub(r"(?<=[a-zA-Z])-?\d+\b", lambda power: power.group().translate(_raised), unit)
 
 
 def amount(value: float, unit: str, digits: int = 4) -> str:
@@ -64,8 +34,8 @@ def amount(value: float, unit: str, digits: int = 4) -> str:
     >>> amount(0.0376152, "J"), amount(-5.1525e-07, "J", 3)
     ('37.62 mJ', '−515 nJ')
     """
-    factor, named = scaled(value, unit)
-    return f"{number(value * factor, digits)} {'' if named == '1' else unit_words(named)}".strip()
+    factor, named = scaled(unit, value)
+    return f"{number(value * factor, digits)} {named}".strip()
 
 
 def percent(share: float, digits: int = 2) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -12,43 +13,22 @@ import xarray as xr
 import slideway
 from slideway.arguments import one_line
 from slideway.arguments import path as path_text
-from slideway.distribution import ran
+from slideway.columns import columns
 from slideway.errors import SlidewayError
 from slideway.members import with_members
 from slideway.palette import style_sheet
 from slideway.results import StrPath
 
-from . import (
-    animation,
-    energy,
-    figures_bands,
-    figures_members,
-    figures_orbits,
-    figures_series,
-    figures_signals,
-    figures_sweep,
-    figures_tolerance,
-    poses,
-    sections,
-    statuses,
-)
-from .audit import Audit
-from .audit import audit as audit_of
-from .columns import Column, columns
-from .files import replace
-from .film_section import animation_section
+from . import animation, energy, poses, sections, statuses
+from .figures import figures as figures_of
+from .findings import exponent_words, yields
 from .markup import Section, data_block, tag, words
 from .members import chosen
 from .numbers import counted, percent
-from .resolution import Resolution, resolution
-from .sweep import sweep_of
-from .traces import Figure
+from .traces import Figure, plot
 
 # Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
-    "form-action 'none'"
-)
+POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'"
 
 # By which the program and this package know a page again.
 GENERATOR = '<meta name="generator" content="slideway">'
@@ -99,20 +79,42 @@ def _may_replace(path: Path) -> bool:
     return not head or GENERATOR in head
 
 
+def replace(path: Path, text: str) -> None:
+    """Puts a text in a file that others see old or new, never in part; its unfinished name is this call's own."""
+    descriptor, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+    try:
+        with open(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(part, _usual_mode(path))
+        os.replace(part, path)
+    except BaseException:
+        os.unlink(part)
+        raise
+
+
+def _usual_mode(path: Path) -> int:
+    """Permissions of the file as it is, or of any new one: those of a temporary file are for its owner alone."""
+    if path.exists():
+        return path.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
+
+
 def html_of(result: xr.Dataset) -> str:
     """The page's text."""
     result = with_members(result)
     every = columns(result)
     ended = statuses.endings(result)
-    audit = audit_of(result, every)
+    audit = energy.audit(result, every)
     judged = audit.verdict
-    resolved = resolution(result)
+    resolved = slideway.resolution(result)
     film = _film(result)
-    figures = _figures(result, every, film, audit)
+    figures = figures_of(result, every, {} if isinstance(film, str) else film[0], audit)
     plots = [figure for name, figure in figures.items() if name != "balance"]
     parts = [
         sections.endings_section(result, ended),
-        animation_section(film if isinstance(film, str) else film[1]),
+        animation.animation_section(film if isinstance(film, str) else film[1]),
         sections.energy_section(judged, figures.get("balance")),
         sections.resolution_section(resolved),
         sections.summary_section(result, every),
@@ -151,55 +153,21 @@ def _film(result: xr.Dataset) -> Film | str:
     return seen, animation.frames(result, seen)
 
 
-def _figures(result: xr.Dataset, every: list[Column], film: Film | str, audit: Audit) -> dict[str, Figure]:
-    """All figures that suit the result, in their order on the page."""
-    made: list[Figure | None] = []
-    sweep = sweep_of(result)
-    if not isinstance(film, str):
-        seen, _ = film
-        made += figures_series.time_series(result, seen)
-        made += [None if sweep else figures_bands.bands(result), figures_series.orbit(result, seen), figures_series.forces(result, seen)]
-        made.append(figures_signals.spectra(result, seen))
-    if "status" in result:
-        map_ = figures_sweep.bifurcation(result, sweep) if sweep else None
-        made += [map_ or figures_orbits.poincare(result), *figures_orbits.exponents(result)]
-    if sweep:
-        made.append(figures_sweep.quantities(result, sweep))
-    else:
-        limits = slideway.scene(result).get("study", {}).get("limits", {})
-        made += [
-            figures_members.mode_shares(every),
-            figures_tolerance.sensitivity(result),
-            figures_tolerance.quantiles(every, limits, ran(result)),
-            figures_members.histograms(every),
-        ]
-    made.append(figures_members.energy_balance(audit.balance, audit.whose) if audit.balance else None)
-    return {figure.name: figure for figure in made if figure}
-
-
 def _header(
-    result: xr.Dataset,
-    title: str,
-    ended: list[statuses.Ending],
-    judged: energy.Verdict,
-    resolved: Resolution | None,
-    parts: list[Section],
+    result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, resolved: slideway.Resolution | None, parts: list[Section]
 ) -> str:
     cards = [(*statuses.headline(ended), "Members", "endings"), (judged.grade, judged.headline, "Energy", "energy")]
     if resolved is not None:
-        cards.append((resolved.grade, resolved.headline.split(":")[0], "Resolution", "resolution"))
-    exponents = figures_orbits.exponent_words(result) if "status" in result else []
+        grade, headline = sections.RESOLUTIONS.get(resolved.verdict, ("none", resolved.verdict))
+        cards.append((grade, headline.split(":")[0], "Resolution", "resolution"))
+    exponents = exponent_words(result) if "status" in result else []
     if exponents:
         cards.append(("none", exponents[0].split(", from")[0], "Chaos", "plots"))
-    yields = figures_tolerance.yields(result)
-    if yields:
-        _, _, trials, share, low, high = yields[-1]
+    if limits := yields(result):
+        _, _, trials, share, low, high = limits[-1]
         interval = f" ({percent(low, 3)} to {percent(high, 3)})" if low == low else ""
         cards.append(("none", f"{percent(share, 3)}{interval} of {counted(trials, 'member')} that ran meet all limits", "Yield", "summary"))
-    items = [
-        tag("li", tag("span", words(about)), tag("a", words(line), href=f"#{target}"), class_=grade)
-        for grade, line, about, target in cards
-    ]
+    items = [tag("li", tag("span", words(about)), tag("a", words(line), href=f"#{target}"), class_=grade) for grade, line, about, target in cards]
     links = [tag("li", tag("a", words(section.title), href=f"#{section.name}")) for section in parts]
     study = str(slideway.scene(result).get("study", {}).get("kind", ""))
     created = str(result.attrs.get("created", "")).replace("T", " ").replace("Z", " UTC")
@@ -232,13 +200,7 @@ def _scripts(figures: dict[str, Figure], film: Film | str) -> str:
         from plotly.offline import get_plotlyjs
 
         blocks += tag("script", get_plotlyjs())
-    data = {
-        figure.name: {
-            "height": figure.height,
-            "variants": [{"data": variant.data, "layout": variant.layout} for variant in figure.variants],
-        }
-        for figure in figures.values()
-    }
+    data = {figure.name: {"height": figure.height, "variants": [plot(variant.panels) for variant in figure.variants]} for figure in figures.values()}
     blocks += data_block("figures", data)
     if not isinstance(film, str):
         blocks += data_block("film", film[1])

@@ -92,9 +92,7 @@ def poses(result: xr.Dataset, member: int) -> Poses:
     if joint.planar:
         touching = contact.planar_depths(y, pitch, joint.length, joint.width, joint.gap_y) > 0
         x = stored.get("x", way.along(scene, time, y, zero, crank))
-        return Poses(
-            joint, kept, time, y, zero, zero, zero, pitch, touching, contact.planar_modes(touching), x, crank, links
-        )
+        return Poses(joint, kept, time, y, zero, zero, zero, pitch, touching, contact.planar_modes(touching), x, crank, links)
     x = stored.get("x", way.along(scene, time, y, states["z"], crank))
     place = way.place(scene, x, y, states["z"])
     if place is None:
@@ -104,20 +102,9 @@ def poses(result: xr.Dataset, member: int) -> Poses:
         attitude = way.frame(scene)[1].T @ attitude
     touching = contact.spatial_depths(place[:, 1], place[:, 2], attitude, *_sizes(joint)) > 0
     return Poses(
-        joint=joint,
-        samples=kept,
-        time=time,
-        y=place[:, 1],
-        z=place[:, 2],
-        roll=attitude[:, 2, 1],
-        yaw=attitude[:, 0, 2],
-        pitch=attitude[:, 1, 0],
-        touching=touching,
-        modes=contact.spatial_modes(touching),
-        x=x,
-        crank=crank,
-        links=links,
-    )
+        joint=joint, samples=kept, time=time, y=place[:, 1], z=place[:, 2], roll=attitude[:, 2, 1], yaw=attitude[:, 0, 2], pitch=attitude[:, 1, 0],
+        touching=touching, modes=contact.spatial_modes(touching), x=x, crank=crank, links=links,
+    )  # fmt: skip
 
 
 def _sizes(joint: Joint) -> tuple[float, float, float, float, float]:
@@ -128,14 +115,7 @@ def _joint(scene: dict[str, Any]) -> Joint:
     sizes = scene["joint"]
     if scene["mechanism"]["kind"] == "planar_slider_crank":
         return Joint(True, sizes["slider_length"], sizes["slider_height"], 0.0, sizes["clearance_y"], 0.0)
-    return Joint(
-        False,
-        sizes["slider_length"],
-        sizes["way_width"],
-        sizes["way_depth"],
-        way.mean_clearance(sizes, "y"),
-        way.mean_clearance(sizes, "z"),
-    )
+    return Joint(False, sizes["slider_length"], sizes["way_width"], sizes["way_depth"], way.mean_clearance(sizes, "y"), way.mean_clearance(sizes, "z"))
 
 
 def _crank(scene: dict[str, Any], time: Array, stored: Array | None) -> tuple[Array | None, tuple[float, float] | None]:

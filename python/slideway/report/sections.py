@@ -6,16 +6,26 @@ import math
 
 import xarray as xr
 
-from . import energy, facts, figures_orbits, figures_sweep, figures_tolerance, statuses
-from .columns import Column
+import slideway
+from slideway.columns import Column
+from slideway.units import scaled
+
+from . import energy, facts, statuses
+from .findings import column_table, exponent_words, sweep_of, yields
 from .markup import Section, table, tag, words
 from .markup import facts as fact_list
-from .numbers import number, percent, scaled, unit_words
-from .resolution import Resolution
-from .sweep import sweep_of
+from .numbers import number, percent
 from .traces import Figure
 
 TEXT = 9  # a column beyond the last: no column of the table holds numbers
+# Grade and headline of each verdict on the resolution.
+RESOLUTIONS = {
+    "resolved": ("good", "Resolved: the integration error is below the study's own intervals"),
+    "error_bounded": ("none", "Integration error bounded: larger than the study's own intervals may be"),
+    "undecided": ("none", "Resolution undecided: too few members ran again, some did not come to their end, or all numbers are 0"),
+    "not_resolved": ("bad", "Not resolved: tighter tolerances say something else"),
+    "not_checked": ("none", "Not checked against tighter tolerances"),
+}
 RESIDUAL = (
     "The residual is E(t) − E(0) − W − W_l − W_g + D_f + D_d + D_s + D_o: mechanical energy gained, less the works of drive, loads and the "
     "ground's motion, plus what friction, contact damping, dampers and oil film took. It is zero for exact physics and exact integration."
@@ -50,21 +60,22 @@ def energy_section(judged: energy.Verdict, balance: Figure | None) -> Section:
     return Section("energy", "Energy audit", body + (figure_element(balance) if balance else ""))
 
 
-def resolution_section(found: Resolution | None) -> Section | None:
-    """Whether tighter tolerances say the same, in the program's words."""
+def resolution_section(found: slideway.Resolution | None) -> Section | None:
+    """Whether tighter tolerances say the same, in the program's words; None where it was not asked (merged shards, earlier versions)."""
     if found is None:
         return None
-    lines = "".join(tag("p", words(line)) for line in found.lines)
-    return Section("resolution", "Resolution", tag("div", tag("strong", words(found.headline)) + lines, class_=f"verdict {found.grade}"))
+    grade, headline = RESOLUTIONS.get(found.verdict, ("none", found.verdict))
+    lines = "".join(tag("p", words(line.strip())) for line in found.summary.splitlines())
+    return Section("resolution", "Resolution", tag("div", tag("strong", words(headline)) + lines, class_=f"verdict {grade}"))
 
 
 def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
     """What the study concludes: exponents, yields, quantities; None where there is nothing."""
     body = ""
-    exponents = figures_orbits.exponent_words(result) if "status" in result else []
+    exponents = exponent_words(result) if "status" in result else []
     if exponents:
         body += tag("p", words(" ".join(exponents)))
-    limits = figures_tolerance.yields(result)
+    limits = yields(result)
     if limits:
         caption = "Yield: of the members that ran, those that meet the limits; one that failed meets none"
         head = ("limit", "met by", "that ran", "yield", "95 % interval")
@@ -74,7 +85,7 @@ def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
     if sweep and shown:
         caption = f"Quantities of the members that finished: medians of the columns of {sweep.key}"
         named = ("quantity", "unit", "least", "largest")
-        body += table(named, figures_sweep.column_table(result, sweep), caption, numeric=2)
+        body += table(named, column_table(result, sweep), caption, numeric=2)
     elif shown:
         body += _quantities(shown)
     return Section("summary", "Summary", body) if body else None
@@ -90,8 +101,8 @@ def _quantities(shown: list[Column]) -> str:
     if all(one.count == 1 for one in shown):
         rows = []
         for one in shown:
-            factor, unit = scaled(one.mean, one.unit)
-            rows.append((one.name, one.meaning, unit_words(unit), number(one.mean * factor, 5)))
+            factor, unit = scaled(one.unit, one.mean)
+            rows.append((one.name, one.meaning, unit, number(one.mean * factor, 5)))
         return table(("quantity", "meaning", "unit", "value"), rows, caption, numeric=3)
     wanted = [p for p in (0.05, 0.5, 0.95) if all(p in one.quantiles for one in shown)]
     quantiles = (f"{100 * p:g} %" for p in wanted)
@@ -103,9 +114,9 @@ def _quantities(shown: list[Column]) -> str:
 
 
 def _moments(one: Column, wanted: list[float]) -> tuple[str, ...]:
-    factor, unit = scaled(max(abs(one.low), abs(one.high)), one.unit)
+    factor, unit = scaled(one.unit, (one.low, one.high))
     values = (one.mean, one.sd, one.low, *(one.quantiles[p] for p in wanted), one.high)
-    return one.name, unit_words(unit), f"{one.count:,}", *(number(value * factor) for value in values)
+    return one.name, unit, f"{one.count:,}", *(number(value * factor) for value in values)
 
 
 def plots_section(figures: list[Figure]) -> Section | None:

@@ -71,13 +71,7 @@ def failures(result: xr.Dataset) -> list[Failure]:
 
 def _failure(row: xr.Dataset, status: str) -> Failure:
     places = []
-    for name, factor, unit in (
-        ("y", 1e3, "mm"),
-        ("z", 1e3, "mm"),
-        ("roll", 1e3, "mrad"),
-        ("yaw", 1e3, "mrad"),
-        ("pitch", 1e3, "mrad"),
-    ):
+    for name, factor, unit in (("y", 1e3, "mm"), ("z", 1e3, "mm"), ("roll", 1e3, "mrad"), ("yaw", 1e3, "mrad"), ("pitch", 1e3, "mrad")):
         if f"final_{name}" in row:
             places.append(f"{name} {number(float(row[f'final_{name}']) * factor, 3)} {unit}")
     return Failure(int(row["member"]), status, float(row["end_time"]) if "end_time" in row else np.nan, ", ".join(places))

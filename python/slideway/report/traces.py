@@ -1,17 +1,20 @@
-"""Figures as plain data for plotly.js: traces with packed numbers, axes in rows, colours by the page's names."""
+"""Figures drawn by plotly.js: panels as its traces and layout, with packed numbers and colours by the page's names."""
 
 from __future__ import annotations
 
 import base64
 import html
-from dataclasses import dataclass, field
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from slideway.escapes import escaped
-from slideway.palette import class_colours
+from slideway.figures.marks import Axis, Band, Bars, Box, Cloud, Curve, Level, Mark, Note, Panel, Rows, reach
+from slideway.palette import names_of_colours
 
 MOST_POINTS = 5000  # of a trace
 
@@ -20,11 +23,10 @@ Trace = dict[str, Any]
 
 @dataclass(frozen=True)
 class Variant:
-    """One of the pictures that a figure shows in turn."""
+    """One of the pictures that a figure shows in turn: panels one above the other, over one x axis."""
 
     label: str
-    data: list[Trace]
-    layout: dict[str, Any]
+    panels: Sequence[Panel]
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,6 @@ class Figure:
     variants: list[Variant]
     height: int = 380  # [px]
     choice: str = "Show"  # label of the choice between variants
-    notes: list[str] = field(default_factory=list)
 
 
 def packed(values: ArrayLike, kind: str = "f4") -> dict[str, str]:
@@ -51,20 +52,19 @@ def packed(values: ArrayLike, kind: str = "f4") -> dict[str, str]:
     return {"dtype": kind, "bdata": base64.b64encode(array.tobytes()).decode("ascii")}
 
 
-def colour_of(name: str) -> str:
-    """Colour of a quantity by its component, as the plots of slideway.plot have it.
-
-    >>> from slideway.report.traces import colour_of
-    >>> colour_of("mode_time[free]"), colour_of("peak_tilt")
-    ('@free', '@c1')
-    """
-    component = name.rpartition("[")[2].removesuffix("]")
-    return f"@{component}" if component in class_colours else "@c1"
-
-
 def text(words: object) -> str:
     """Text of a file for plotly.js, which reads some HTML in labels."""
     return html.escape(escaped(str(words)))
+
+
+def colour(of: str, opacity: float = 1.0) -> str:
+    """A colour of the palette as the page knows it.
+
+    >>> from slideway.report.traces import colour
+    >>> colour("#0b6bb8", 0.5), colour("#8b96a2"), colour("#123456")
+    ('@c1/0.5', '@free', '#123456')
+    """
+    return f"@{names_of_colours[of]}" + (f"/{opacity:g}" if opacity < 1 else "") if of in names_of_colours else of
 
 
 def thinned(values: NDArray[Any], most: int = MOST_POINTS) -> NDArray[np.int64]:
@@ -86,111 +86,138 @@ def thinned(values: NDArray[Any], most: int = MOST_POINTS) -> NDArray[np.int64]:
     return np.unique(kept)
 
 
-def line(x: ArrayLike, y: ArrayLike, name: str, colour: str, axis: int = 1, **more: Any) -> Trace:
-    """A line, thinned where it is long."""
-    xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-    kept = thinned(ys)
-    style = {"color": colour, "width": more.pop("width", 1.3), "dash": more.pop("dash", "solid")}
-    return {
-        "type": "scatter",
-        "mode": "lines",
-        "name": text(name),
-        "x": packed(xs[kept]),
-        "y": packed(ys[kept]),
-        "line": style,
-        **on_row(axis),
-        **more,
-    }
+def plot(panels: Sequence[Panel]) -> dict[str, Any]:
+    """Data and layout of panels."""
+    data: list[Trace] = []
+    told: set[str] = set()  # names in the legend
+    layout = _axes(panels) | {"shapes": [], "annotations": []}
+    for row, panel in enumerate(panels, start=1):
+        of_row = {} if row == 1 else {"yaxis": f"y{row}"}
+        edges = [mark.value for mark in panel.marks if isinstance(mark, Level) and mark.of == "x"]
+        for mark in panel.marks:
+            if isinstance(mark, (Level, Box)):
+                shapes, notes = _shapes(mark, row)
+                layout["shapes"] += shapes
+                layout["annotations"] += notes
+            else:
+                named = {"name": text(mark.label or panel.y.words), "showlegend": mark.label is not None and mark.label not in told, **of_row}
+                data += [{**named, **trace} for trace in _traces(mark, panel, edges)]
+                told.add(mark.label or "")
+        if panel.stacked:
+            layout |= {"barmode": "stack", "legend": {"traceorder": "normal"}}
+    if layout["annotations"]:
+        layout["showlegend"] = False  # it would lie over them
+    return {"data": data, "layout": layout}
 
 
-def points(x: ArrayLike, y: ArrayLike, name: str, colour: str, axis: int = 1, size: float = 4, **more: Any) -> Trace:
-    """A cloud of points; of more than the page bears, an even choice."""
-    xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-    if len(xs) > MOST_POINTS:
-        kept = np.linspace(0, len(xs) - 1, MOST_POINTS).round().astype(int)
-        xs, ys = xs[kept], ys[kept]
-    marker = {"color": colour, "size": size, **more.pop("marker", {})}
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "name": text(name),
-        "x": packed(xs),
-        "y": packed(ys),
-        "marker": marker,
-        **on_row(axis),
-        **more,
-    }
-
-
-def band(x: ArrayLike, low: ArrayLike, high: ArrayLike, name: str, colour: str, axis: int = 1) -> list[Trace]:
-    """The area between two curves, as one entry of the legend."""
-    bare = {"width": 0.0, "hoverinfo": "skip", "legendgroup": name}
-    edge = line(x, low, name, colour, axis, showlegend=False, **bare)
-    return [edge, line(x, high, name, colour, axis, fill="tonexty", fillcolor=colour, **bare)]
-
-
-def on_row(axis: int) -> dict[str, str]:
-    """That a trace belongs to a row of :func:`rows`, from 1; all share the x axis."""
-    return {} if axis == 1 else {"yaxis": f"y{axis}"}
-
-
-def rows(titles: list[str], x_title: str, **x_axis: Any) -> dict[str, Any]:
-    """Layout of rows one above the other, the first on top, on one x axis."""
-    count = len(titles)
+def _axes(panels: Sequence[Panel]) -> dict[str, Any]:
+    """Rows one above the other, the first on top, on the x axis of the last."""
+    count, last = len(panels), panels[-1]
     gap = 0.06 if count > 1 else 0.0
     height = (1 - gap * (count - 1)) / count
-    layout: dict[str, Any] = {"xaxis": {"title": {"text": x_title}, "anchor": "y" if count == 1 else f"y{count}", **x_axis}}
-    for row, title in enumerate(titles, start=1):
+    layout: dict[str, Any] = {"xaxis": {**_axis(last.x, text(last.x.label)), "anchor": "y" if count == 1 else f"y{count}"}}
+    layout["hovermode"] = "x" if last.x.tight else "closest"
+    for row, panel in enumerate(panels, start=1):
         top = 1 - (row - 1) * (height + gap)
-        key = "yaxis" if row == 1 else f"yaxis{row}"
-        layout[key] = {"title": {"text": title}, "domain": [max(top - height, 0.0), top]}
+        lines = [panel.y.label] if count == 1 else textwrap.wrap(panel.y.words, 16) + ([f"[{panel.y.unit}]"] if panel.y.unit else [])
+        layout["yaxis" if row == 1 else f"yaxis{row}"] = {**_axis(panel.y, "<br>".join(map(text, lines))), "domain": [max(top - height, 0.0), top]}
+    if last.equal:
+        layout["yaxis"] |= {"scaleanchor": "x", "scaleratio": 1, "constrain": "domain"}
+        layout["xaxis"] |= {"constrain": "domain"}
     return layout
 
 
-def bars_of(edges: ArrayLike, counts: ArrayLike, name: str, colour: str, axis: int = 1, **more: Any) -> Trace:
-    """A histogram that is already counted."""
-    sides, heights = np.asarray(edges, dtype=float), np.asarray(counts, dtype=float)
-    return {
-        "type": "bar",
-        "name": text(name),
-        "x": packed((sides[:-1] + sides[1:]) / 2),
-        "width": packed(np.diff(sides)),
-        "y": packed(heights),
-        "marker": {"color": colour, "line": {"color": "@paper", "width": 0.5}},
-        **on_row(axis),
-        **more,
-    }
+def _axis(axis: Axis, title: str) -> dict[str, Any]:
+    made: dict[str, Any] = {"title": {"text": title}}
+    if axis.log:
+        made["type"] = "log"
+    if axis.low is not None or axis.high is not None:
+        made["range"] = [None if end is None else float(np.log10(end) if axis.log else end) for end in (axis.low, axis.high)]
+    return made
 
 
-def bins(values: ArrayLike, most: int = 60) -> NDArray[np.float64]:
-    """Edges of bins for a histogram: Freedman-Diaconis, at least 8 and no more than the picture bears."""
-    there = np.asarray(values, dtype=float)
-    there = there[np.isfinite(there)]
-    if len(there) == 0:
-        return np.array([0.0, 1.0])
-    width = 2 * float(np.subtract(*np.percentile(there, [75, 25]))) / len(there) ** (1 / 3)
-    count = np.ptp(there) / width if width > 0 else most
-    return np.histogram_bin_edges(there, int(np.clip(count, min(8, len(there)), most)))
+def _traces(mark: Mark, panel: Panel, edges: list[float]) -> list[Trace]:
+    match mark:
+        case Curve():
+            kept = _kept(mark, edges)
+            # Eight bytes: a value rounded to four might pass to the other side of a limit.
+            trace: Trace = {"type": "scatter", "x": packed(mark.x[kept], "f8" if mark.steps else "f4"), "y": packed(mark.y[kept], "f8" if mark.steps else "f4")}
+            trace["mode"] = "+".join(["lines"] * bool(mark.dash) + ["markers"] * bool(mark.marker))
+            tint = colour(mark.colour, mark.opacity)
+            if mark.dash:
+                trace["line"] = {"color": tint, "width": max(mark.width, 0.8), "dash": _dashes[mark.dash]} | ({"shape": "hv"} if mark.steps else {})
+            if mark.marker:
+                trace["marker"] = {"color": tint, "size": 1.4 * mark.size, "symbol": "circle-open" if mark.hollow else "circle"}
+            if mark.low is not None and mark.high is not None:
+                values = (mark.x if mark.along == "x" else mark.y)[kept]
+                trace[f"error_{mark.along}"] = _interval(values, mark.low[kept], mark.high[kept], colour(mark.colour, 0.6))
+            return [trace]
+        case Cloud():
+            kept = np.arange(len(mark.x)) if len(mark.x) <= MOST_POINTS else np.linspace(0, len(mark.x) - 1, MOST_POINTS).round().astype(int)
+            marker = {"color": colour(mark.colour, mark.opacity), "size": float(max(1.4 * np.sqrt(mark.size), 2.5))}
+            return [{"type": "scatter", "mode": "markers", "x": packed(mark.x[kept]), "y": packed(mark.y[kept]), "marker": marker}]
+        case Band():
+            tint = colour(mark.colour, mark.opacity)
+            bare = {"type": "scatter", "mode": "lines", "line": {"color": tint, "width": mark.width}, "hoverinfo": "skip", "legendgroup": text(mark.label)}
+            low, high = ({**bare, "x": packed(mark.x[kept]), "y": packed(end[kept])} for end in (mark.low, mark.high) for kept in [thinned(end)])
+            return [{**low, "showlegend": False}, {**high, "fill": "tonexty", "fillcolor": tint}]
+        case Bars(outlined=True):
+            line = {"color": colour(mark.colour), "width": 1.5, "shape": "hv"}
+            heights = np.append(mark.heights, mark.heights[-1:])
+            return [{"type": "scatter", "mode": "lines", "x": packed(mark.edges), "y": packed(heights), "line": line, "fill": "tozeroy",
+                     "fillcolor": colour(mark.colour, 0.3)}]  # fmt: skip
+        case Bars():
+            marker = {"color": colour(mark.colour, mark.opacity), "line": {"color": "@paper", "width": 0.5}}
+            middles, widths = (mark.edges[:-1] + mark.edges[1:]) / 2, np.diff(mark.edges)
+            return [{"type": "bar", "x": packed(middles), "width": packed(widths), "y": packed(mark.heights), "marker": marker}]
+        case Rows():
+            names = [text(name) for name in (panel.y.ticks or {}).values()]
+            trace = {"type": "bar", "orientation": "h", "y": names, "x": packed(mark.values), "marker": {"color": colour(mark.colour)}}
+            if mark.low is not None and mark.high is not None and np.isfinite([mark.low, mark.high]).any():
+                trace["error_x"] = _interval(mark.values, mark.low, mark.high, "@muted")
+            return [trace]
+        case Note():
+            words = text(mark.label).replace("\n", "<br>")
+            return [{"type": "scatter", "mode": "markers", "x": [None], "y": [None], "name": words, "marker": {"opacity": 0}, "hoverinfo": "skip"}]
+    raise TypeError(f"pages have no {type(mark).__name__}")
 
 
-def vertical(x: float, label: str, colour: str = "@bad") -> tuple[dict[str, Any], dict[str, Any]]:
-    """A line across all rows at x with a label at its top: a shape and an annotation."""
-    shape = {
-        "type": "line",
-        "x0": x,
-        "x1": x,
-        "yref": "paper",
-        "y0": 0,
-        "y1": 1,
-        "line": {"color": colour, "dash": "dash", "width": 1.5},
-    }
-    note = {
-        "x": x,
-        "y": 1,
-        "yref": "paper",
-        "yanchor": "bottom",
-        "text": text(label),
-        "showarrow": False,
-        "font": {"color": colour},
-    }
-    return shape, note
+_dashes = {"-": "solid", "--": "dash", ":": "dot"}
+
+
+def _kept(curve: Curve, edges: list[float]) -> NDArray[np.int64]:
+    """Which points of a long curve are drawn. Those of steps beside the limits stay, so that the curve has there what the file says."""
+    if len(curve.x) <= MOST_POINTS:
+        return np.arange(len(curve.x))
+    if curve.steps:
+        beside = [k for edge in edges for k in (np.searchsorted(curve.x, edge, side="right") - 1, np.searchsorted(curve.x, edge))]
+        even = np.linspace(0, curve.x.size - 1, MOST_POINTS).round()
+        return np.unique(np.concatenate([even, np.clip(beside, 0, curve.x.size - 1)]).astype(int))
+    kept = thinned(curve.y)
+    return kept if np.all(np.diff(curve.x) >= 0) else np.unique(np.concatenate([kept, thinned(curve.x)]))
+
+
+def _interval(values: NDArray[Any], low: NDArray[Any], high: NDArray[Any], tint: str) -> dict[str, Any]:
+    """Error bars; without caps, which would stand there even where an end is not known."""
+    down, up = reach(values, low, high)
+    return {"type": "data", "symmetric": False, "array": packed(up), "arrayminus": packed(down), "color": tint, "thickness": 1.2, "width": 0}
+
+
+def _shapes(mark: Level | Box, row: int) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Lines across the panels with their names on top, and rectangles."""
+    if isinstance(mark, Box):
+        line = {"color": "@muted", "dash": "dot", "width": 1}
+        return [{"type": "rect", "x0": -mark.x, "x1": mark.x, "y0": -mark.y, "y1": mark.y, "line": line}], []
+    line = {"color": colour(mark.colour), "dash": _dashes[mark.dash], "width": mark.width}
+    if mark.of == "y":
+        across = {"xref": "paper", "x0": 0, "x1": 1, "yref": f"y{row}" if row > 1 else "y"}
+        return [{"type": "line", **across, "y0": mark.value, "y1": mark.value, "line": line}], []
+    up = {"yref": "paper", "y0": 0, "y1": 1}
+    shapes: list[dict[str, Any]] = [{"type": "line", "x0": mark.value, "x1": mark.value, **up, "line": line}]
+    if mark.half > 0:
+        shapes.append({"type": "rect", "x0": mark.value - mark.half, "x1": mark.value + mark.half, **up, "line": {"width": 0},
+                       "fillcolor": colour(mark.colour, 0.25)})  # fmt: skip
+    if mark.label is None:
+        return shapes, []
+    return shapes, [{"x": mark.value, "y": 1, "yref": "paper", "yanchor": "bottom", "text": text(mark.label), "showarrow": False,
+                     "font": {"color": colour(mark.colour)}}]  # fmt: skip

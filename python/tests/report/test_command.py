@@ -11,9 +11,7 @@ import xarray as xr
 from slideway.__main__ import main
 
 
-def test_a_page_lies_beside_the_result(
-    result_of: Callable[[str], xr.Dataset], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_page_lies_beside_the_result(result_of: Callable[[str], xr.Dataset], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with result_of("stored") as result:
         copy = tmp_path / "a.b.nc"
         copy.write_bytes(Path(result.slideway.path).read_bytes())
@@ -24,9 +22,7 @@ def test_a_page_lies_beside_the_result(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.b.html", "a.b.nc"]
 
 
-def test_trouble_with_files_is_one_line_and_code_4(
-    result_of: Callable[[str], xr.Dataset], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_trouble_with_files_is_one_line_and_code_4(result_of: Callable[[str], xr.Dataset], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with result_of("stored") as result:
         path = result.slideway.path
     for arguments in (["report", str(tmp_path / "no.nc")], ["report", path, "-o", str(tmp_path / "no" / "p.html")]):
@@ -51,15 +47,13 @@ def test_a_page_can_be_written_from_python(result_of: Callable[[str], xr.Dataset
             report.write(result, tmp_path / "nowhere" / "p.html")
 
 
-def test_a_page_that_cannot_be_put_in_place_leaves_nothing(
-    result_of: Callable[[str], xr.Dataset], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_page_that_cannot_be_put_in_place_leaves_nothing(result_of: Callable[[str], xr.Dataset], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from slideway import report
 
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("slideway.report.files.os.replace", full)
+    monkeypatch.setattr("slideway.report.page.os.replace", full)
     with result_of("poincare") as result, pytest.raises(slideway.SlidewayError, match="cannot write the report: No space left"):
         report.write(result, tmp_path / "p.html")
     assert list(tmp_path.iterdir()) == []

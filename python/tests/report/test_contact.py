@@ -88,12 +88,7 @@ def test_a_planar_block_touches_with_the_corners_that_are_beyond_the_walls() -> 
     pitch = np.array([0.0, 1.1 * tilt, 0.0, 0.6 * tilt])
     touching = contact.planar_depths(y, pitch, length, 0.05, gap) > 0
     #                               none, two opposite, the upper face, the lower corner behind
-    assert touching.tolist() == [
-        [False] * 4,
-        [True, False, False, True],
-        [True, True, False, False],
-        [False, False, False, True],
-    ]
+    assert touching.tolist() == [[False] * 4, [True, False, False, True], [True, True, False, False], [False, False, False, True]]
     assert contact.planar_modes(touching).tolist() == [[0, 0, 0], [0, 0, 2], [1, 0, 0], [0, 0, 1]]
 
 

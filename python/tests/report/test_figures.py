@@ -11,7 +11,11 @@ import pytest
 import slideway
 import xarray as xr
 from slideway import palette
-from slideway.report.numbers import amount, number, scaled
+from slideway.columns import Column
+from slideway.figures.tolerance import distribution
+from slideway.report.traces import plot
+from slideway.report.numbers import amount, number
+from slideway.units import scaled
 
 from .browser import Seen
 from .conftest import Page, unpacked
@@ -31,42 +35,23 @@ def test_distribution_says_at_a_limit_what_the_file_says(page_of: Pages, result_
         share = 100 * float(yields["share"][0])
     drawn = variant(page_of("correlations"), "quantiles")
     curve = drawn["data"][0]
-    x, y = unpacked(curve["x"]) * 1e3, unpacked(curve["y"])  # kN
+    x, y = unpacked(curve["x"]), unpacked(curve["y"])
     assert curve["line"]["shape"] == "hv"
     np.testing.assert_allclose(x, [values[0], *values], rtol=1e-12)
     np.testing.assert_allclose(y, 100 * np.arange(65) / 64, rtol=1e-6)
     assert y[np.searchsorted(x, 1000, side="right") - 1] == pytest.approx(share)
-    assert drawn["layout"]["annotations"][0]["text"] == f"limit (max), kept by {number(share, 3)} %"
-    assert drawn["layout"]["yaxis"]["title"]["text"] == "share of 64 that ran [%]"
+    assert drawn["layout"]["annotations"][0]["text"] == f"limit, kept by {share:.1f}%"
+    assert drawn["layout"]["yaxis"]["title"]["text"] == "share of the 64 members that ran [%]"
     assert f"{number(share, 3)} % (" in page_of("correlations").read.text  # on top of the page
     assert "of 64 members that ran meet all limits" in page_of("correlations").read.text
 
 
-@pytest.mark.slow
-def test_distribution_of_a_radial_design_is_that_of_its_draws(page_of: Pages, result_of: Results) -> None:
-    with result_of("tolerance") as result, result.slideway.yields as yields, result.slideway.statistics as statistics:
-        count, share = int(statistics["peak_normal_force_count"]), 100 * float(yields["share"][0])
-        assert count < result.sizes["member"] / 4
-    figure = variant(page_of("tolerance"), "quantiles")
-    curve, dots = figure["data"]
-    x, y = unpacked(curve["x"]) * 1e3, unpacked(curve["y"])
-    assert (x.size, y[-1]) == (count + 1, pytest.approx(100))
-    assert y[np.searchsorted(x, 1000, side="right") - 1] == pytest.approx(share)
-    for value, part in zip(unpacked(dots["x"]) * 1e3, unpacked(dots["y"]), strict=True):
-        assert y[np.searchsorted(x, value * (1 + 1e-6), side="right") - 1] == pytest.approx(part, abs=101 / count)
-
-
 def test_long_distributions_are_exact_at_their_limits() -> None:
-    from slideway.report import figures_tolerance
-    from slideway.report.columns import Column
-
     values = np.random.default_rng(0).lognormal(size=40_001)
     edge = float(np.sort(values)[12_345]) * (1 + 1e-12)
     quantiles = {p: float(np.quantile(values, p)) for p in np.linspace(0.1, 0.9, 9)}
     one = Column("q", "", "1", values.size, 1.0, 1.0, values.min(), values.max(), quantiles, {}, values, None)
-    figure = figures_tolerance.quantiles([one], {"q": {"max": edge}}, 40_001)
-    assert figure is not None
-    curve = figure.variants[0].data[0]
+    curve = plot([distribution([one], {"q": {"max": edge}}, {}, 40_001, "members")])["data"][0]
     x, y = unpacked(curve["x"]), unpacked(curve["y"])
     assert x.size <= 5004
     assert y[np.searchsorted(x, edge, side="right") - 1] == pytest.approx(100 * 12_346 / 40_001, rel=1e-6)
@@ -107,7 +92,7 @@ def test_a_sweep_is_told_column_by_column(page_of: Pages, result_of: Results) ->
         gaps = result.joint_clearance.values.reshape(4, 3)[:, 0]
         exponents = np.median(result.lyapunov_exponent.values[:, 0].reshape(4, 3), axis=1)
     medians = np.median(force, axis=1)
-    factor, unit = scaled(medians.max(), "N")
+    factor, unit = scaled("N", medians.max())
     ends = (f"{number(medians[k] * factor)} at {amount(gaps[k], 'm')}" for k in (medians.argmin(), medians.argmax()))
     assert read.row("peak_normal_force") == ["peak_normal_force", unit, *ends]
     points, middle = variant(page_of("columns"), "columns")["data"]
@@ -144,9 +129,7 @@ def test_colours_of_the_page_are_those_of_the_plots(page_of: Pages) -> None:
     by_name = {one["data"][0]["line"]["color"] for one in page.read.figure("quantiles") if "data" in one}
     assert {"@c1", "@free", "@point", "@line"} <= by_name
     total, first = variant(page, "sensitivity")["data"]
-    with_total = slideway.plot.tolerance.colours
     assert (total["marker"]["color"], first["marker"]["color"]) == ("@c1", "@c2")
-    assert with_total[:2] == palette.colours[:2]
 
 
 @pytest.mark.parametrize("name", ["ensemble", "columns", "tolerance", "stored", "correlations"])

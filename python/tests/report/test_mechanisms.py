@@ -52,12 +52,7 @@ def stored(path: Path, scene: str, time: np.ndarray, **series: np.ndarray) -> Pa
     flags = {"flag_values": np.array([0, 2], "i1"), "flag_meanings": "finished max_steps"}
     made = xr.Dataset(
         {name: (("member", "sample"), [values], {"units": "m"}) for name, values in series.items()}
-        | {
-            "status": ("member", np.array([0], "i1"), flags),
-            "end_time": ("member", time[-1:]),
-            "member": ("member", [0]),
-            "time": ("sample", time),
-        },
+        | {"status": ("member", np.array([0], "i1"), flags), "end_time": ("member", time[-1:]), "member": ("member", [0]), "time": ("sample", time)},
         attrs={"source": "slideway 0.1.0", "title": "made up", "scene": scene},
     )
     made.to_netcdf(path, engine="netcdf4")

@@ -10,7 +10,8 @@ import pytest
 import slideway
 import xarray as xr
 from slideway import report
-from slideway.report.numbers import number, scaled
+from slideway.report.numbers import number
+from slideway.units import scaled
 
 from .conftest import Page, Reader, unpacked
 
@@ -83,7 +84,7 @@ def test_the_summary_holds_moments_and_quantiles(page_of: Pages, result_of: Resu
     with result_of("ensemble") as result:
         force = result["peak_normal_force"].values
     row = page_of("ensemble").read.row("peak_normal_force")
-    factor, unit = scaled(force.max(), "N")
+    factor, unit = scaled("N", force.max())
     ends = (force.min(), *np.quantile(force, [0.05, 0.5, 0.95]), force.max())
     expected = [unit, "64", *(number(v * factor) for v in (force.mean(), force.std(ddof=1), *ends))]
     assert row[1:] == expected
@@ -93,7 +94,7 @@ def test_statistics_without_members_are_summarised(page_of: Pages, result_of: Re
     with result_of("stored") as result, result.slideway.statistics as statistics:
         mean = float(statistics["peak_normal_force_mean"])
         high = float(statistics["peak_normal_force_max"])
-    factor, unit = scaled(high, "N")
+    factor, unit = scaled("N", high)
     assert page_of("stored").read.row("peak_normal_force")[1:4] == [unit, "64", number(mean * factor)]
 
 
@@ -111,8 +112,8 @@ def test_drawn_series_are_the_stored_ones(page_of: Pages, result_of: Results) ->
         time = result["time"].values
     trace = page_of("ensemble").read.figure("series")[0]["data"][0]
     assert trace["name"] == "y"
-    assert np.allclose(unpacked(trace["x"]), time, rtol=1e-6)
-    assert np.allclose(unpacked(trace["y"]), y * 1e3, rtol=1e-6, atol=1e-9)
+    assert np.allclose(unpacked(trace["x"]), time * 1e3, rtol=1e-6)
+    assert np.allclose(unpacked(trace["y"]), y * 1e6, rtol=1e-6, atol=1e-6)
 
 
 def test_long_series_are_thinned_but_keep_their_extremes(page_of: Pages, result_of: Results) -> None:
@@ -120,7 +121,7 @@ def test_long_series_are_thinned_but_keep_their_extremes(page_of: Pages, result_
     with result_of("single") as result:
         assert result.sizes["sample"] == 4001
         force = result["normal_force"].values[0]
-    traces = [trace for trace in read.figure("series")[0]["data"] if trace["name"] == "normal_force"]
+    traces = [trace for trace in read.figure("series")[0]["data"] if trace["name"] == "normal force"]
     assert np.isclose(unpacked(traces[0]["y"]).max(), force.max(), rtol=1e-6)
     assert all(len(unpacked(trace["y"])) <= 5000 for variant in read.figure("series") for trace in variant["data"])
 
@@ -133,14 +134,14 @@ def test_histograms_count_every_member(page_of: Pages) -> None:
 
 def test_the_map_holds_every_section(page_of: Pages, result_of: Results) -> None:
     with result_of("poincare") as result:
-        y = result["section_y"].values * 1e3
+        y = result["section_y"].values * 1e6
     drawn = [unpacked(trace["x"]) for trace in page_of("poincare").read.figure("poincare")[0]["data"]]
-    assert np.allclose(np.sort(np.concatenate(drawn)), np.sort(y), rtol=1e-6, atol=1e-9)
+    assert np.allclose(np.sort(np.concatenate(drawn)), np.sort(y), rtol=1e-6, atol=1e-6)
 
 
 def test_bifurcations_stand_at_their_parameter(page_of: Pages, result_of: Results) -> None:
     with result_of("sweep") as result:
-        columns = np.unique(result["joint_clearance"].values) * 1e3
+        columns = np.unique(result["joint_clearance"].values) * 1e6
         count = result.sizes["section"]
     trace = page_of("sweep").read.figure("bifurcation")[0]["data"][0]
     assert len(unpacked(trace["x"])) == count

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -117,12 +118,12 @@ def test_page_draws_the_walls_about_the_axis_of_the_way(result: xr.Dataset, tmp_
     made = read(result, tmp_path)
     series = made.figure("series")[0]
     drawn = {trace["name"]: unpacked(trace["y"]) for trace in series["data"]}
-    np.testing.assert_allclose(drawn["y"], 1e3 * own_y, atol=1e-8)
-    assert {shape["y0"] for shape in series["layout"]["shapes"]} == {-1e3 * gap, 1e3 * gap}
-    assert "from the way's axis" in series["layout"]["yaxis"]["title"]["text"]
+    np.testing.assert_allclose(drawn["y"], 1e6 * own_y, atol=1e-5)
+    assert {shape["y0"] for shape in series["layout"]["shapes"]} == {-1e6 * gap, 1e6 * gap}
+    assert "from the way's axis" in html.unescape(series["layout"]["yaxis"]["title"]["text"]).replace("<br>", " ")
     orbit = made.figure("orbit")[0]
-    np.testing.assert_allclose(unpacked(orbit["data"][0]["y"]), 1e3 * own_y, atol=1e-8)
-    assert "from the way's axis" in orbit["layout"]["yaxis"]["title"]["text"]
+    np.testing.assert_allclose(unpacked(orbit["data"][0]["y"]), 1e6 * own_y, atol=1e-5)
+    assert "from the way's axis" in html.unescape(orbit["layout"]["yaxis"]["title"]["text"])
 
 
 def test_without_a_place_along_a_turned_way_nothing_is_claimed(tmp_path: Path) -> None:

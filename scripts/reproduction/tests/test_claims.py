@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from reproduction.claims import LAWS, growth, judge, percent, plus_minus
+from reproduction.claims import LAWS, growth, judge, percent
+from slideway.units import plus_minus
 
 from test_estimates import around
 
@@ -27,11 +28,7 @@ def test_verdict_is_that_of_both_laws(paper: bool | None, conservative: bool | N
 
 def test_growth_under_one_law_alone_is_the_laws() -> None:
     found = growth(
-        "Fig. 0",
-        "It grows.",
-        ["small", "large"],
-        {"paper": [around(1, 0.1), around(2, 0.1)], "conservative": [around(1, 0.01), around(1, 0.01)]},
-        "N",
+        "Fig. 0", "It grows.", ["small", "large"], {"paper": [around(1, 0.1), around(2, 0.1)], "conservative": [around(1, 0.01), around(1, 0.01)]}, "N"
     )
     assert found.verdict.words == "holds only under the paper's law"
     assert found.findings["paper"].lines[0] == "small: 1.000 ± 0.032 N"  # t = 2.0227 of 39, 0.1/sqrt(40)

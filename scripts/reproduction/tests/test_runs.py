@@ -25,10 +25,7 @@ def laboratory(scenes: Path, folder: Path, said: list[str]) -> Laboratory:
 
 
 def test_a_result_of_the_same_scene_is_not_made_again(scenes: Path, tmp_path: Path, said: list[str]) -> None:
-    first, other = (
-        Run("one", "slider_crank_0.1mm.toml", KEYS),
-        Run("one", "slider_crank_0.1mm.toml", {**KEYS, "study.members": 2}),
-    )
+    first, other = (Run("one", "slider_crank_0.1mm.toml", KEYS), Run("one", "slider_crank_0.1mm.toml", {**KEYS, "study.members": 2}))
     laboratory(scenes, tmp_path, said).make([first])
     made = (tmp_path / "one.nc").stat().st_mtime_ns
     laboratory(scenes, tmp_path, said).make([first])
@@ -41,12 +38,7 @@ def test_a_result_of_the_same_scene_is_not_made_again(scenes: Path, tmp_path: Pa
 
 def test_a_run_goes_on_from_where_another_ended(scenes: Path, tmp_path: Path, said: list[str]) -> None:
     bench = laboratory(scenes, tmp_path, said)
-    bench.make(
-        [
-            Run("one", "slider_crank_0.1mm.toml", KEYS),
-            Run("two", "slider_crank_0.1mm.toml", {**KEYS, "study.vary": None}, after="one", members=2),
-        ]
-    )
+    bench.make([Run("one", "slider_crank_0.1mm.toml", KEYS), Run("two", "slider_crank_0.1mm.toml", {**KEYS, "study.vary": None}, after="one", members=2)])
     assert not bench.failures
     assert bench.result("two").sizes["member"] == 2
     for state in ("y", "vz", "pitch", "wx"):

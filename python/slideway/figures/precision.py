@@ -5,24 +5,27 @@ from __future__ import annotations
 import csv
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
-from matplotlib.axes import Axes
 
-from ..arguments import one_line, path, shown, text
+from ..arguments import path, shown, text
 from ..errors import SlidewayError
 from ..palette import colours
-from .style import axis, finish, label
+from .base import drawn, words_of
+from .marks import Axis, Curve, Panel
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Table = Union[str, "os.PathLike[str]", Mapping[str, Sequence[Any]]]
 _markers = "os^Dv<>P"
 
 
-@one_line
+@drawn
 def work_precision(
     table: Table, problem: str | None = None, ax: Axes | None = None, *, error: str = "p95_error", cost: str = "seconds_per_member"
-) -> Axes:
+) -> Panel:
     """Error against run time, a curve for each method (`bench/results/work_precision.csv`).
 
     Args:
@@ -50,7 +53,7 @@ def work_precision(
         raise SlidewayError(f"the table has no problem {problem}, but {', '.join(problems)}")
     rows = [i for i, name in enumerate(columns["problem"]) if name == problem]
     families = list(dict.fromkeys(columns["method"][i] for i in rows))
-    ax = axis(ax)
+    curves = []
     for method, code in dict.fromkeys((columns["method"][i], columns["code"][i]) for i in rows):
         own = [i for i in rows if (columns["method"][i], columns["code"][i]) == (method, code)]
         errors = np.array([float(columns[error][i]) for i in own])
@@ -58,15 +61,12 @@ def work_precision(
         place = families.index(method)
         marker = _markers[(place + place // len(colours)) % len(_markers)]  # another one when the colours begin again
         # Vectorised code is a full line, the scalar peer of the same method a dashed one of its colour.
-        ax.plot(costs, np.where(errors > 0, errors, np.nan), ls="--" if code == "scalar" else "-", marker=marker,
-                ms=4, lw=1.2, color=colours[place % len(colours)], mfc="white" if code == "scalar" else None, label=f"{method}, {code}")
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_title(problem)
+        curves.append(Curve(costs, np.where(errors > 0, errors, np.nan), f"{method}, {code}", colours[place % len(colours)],
+                            dash="--" if code == "scalar" else "-", marker=marker, hollow=code == "scalar"))  # fmt: skip
     unit = columns["error_unit"][rows[0]] if "error_unit" in columns else "1"
-    words = {"p95_error": "error, 95th percentile", "median_error": "error, median"}.get(error, error.replace("_", " "))
-    return finish(ax, "time per member [s]" if cost == "seconds_per_member" else cost.replace("_", " "),
-                  label(words, "" if unit == "1" else unit))
+    words = {"p95_error": "error, 95th percentile", "median_error": "error, median"}.get(error, words_of(error))
+    x = Axis("time per member", "s", log=True) if cost == "seconds_per_member" else Axis(words_of(cost), log=True)
+    return Panel(curves, x, Axis(words, "" if unit == "1" else unit, log=True), title=problem)
 
 
 def _columns(table: Table) -> dict[str, list[str]]:

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Union
+from typing import TYPE_CHECKING, Union
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
-from ..arguments import one_line, whole
 from ..errors import SlidewayError
 from ..exponent_signs import half_width_of_mean
 from ..members import with_members
-from ..palette import colours, grey
+from ..palette import colours
 from ..series_statistics import SeriesStatistics, stats
-from .style import Members, axis, chosen, draw_members, failures, finish, label, numbered, of_result, plus_minus, scaled, variable
+from ..units import lowered, plus_minus, scaled
+from .base import Members, chosen, drawn, exponent_of, failures, members_over, variable
+from .marks import Axis, Bars, Curve, Level, Mark, Note, Panel
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
-@one_line
+@drawn
 def divergence(
     curve: Union[SeriesStatistics, xr.Dataset], name: str = "y", member: int | None = None, ax: Axes | None = None, **options: object
-) -> Axes:
+) -> Panel:
     """How far neighbours of one series part, after Rosenstein, with the fitted line whose slope is the exponent.
 
     There is no line where `slideway stats` sees no exponential growth, though it gives the slope of a fit.
@@ -45,21 +48,20 @@ def divergence(
     elif not isinstance(curve, SeriesStatistics) or options:
         raise SlidewayError("give what slideway.stats returned, or a result (Dataset) and the options of slideway.stats")
     factor, unit = scaled("s", curve.time)
-    ax = axis(ax)
-    ax.plot(factor * curve.time, curve.mean_log_distance, ".-", color=colours[0], ms=4, lw=0.8, label="neighbours of the series")
+    marks: list[Mark] = [Curve(factor * curve.time, curve.mean_log_distance, "neighbours of the series", width=0.8, marker=".")]
     if curve.growth_is_seen and curve.exponent is not None and curve.fit is not None:
         first, last = curve.fit
         time, values = curve.time[first : last + 1], curve.mean_log_distance[first : last + 1]
         line = values.mean() + curve.exponent * (time - time.mean())
-        ax.plot(factor * time, line, color=colours[1], lw=2.2,
-                label=f"λ₁ = ({plus_minus(curve.exponent, curve.error or 0)}) 1/s, samples {first} to {last}")
+        words = f"λ₁ = ({plus_minus(curve.exponent, curve.error or 0)}) 1/s, samples {first} to {last}"
+        marks.append(Curve(factor * time, line, words, colours[1], width=2.2))
     else:
-        ax.plot([], [], " ", label="no exponential growth is seen" if curve.exponent is not None else "no line to fit")
-    return finish(ax, label("time", unit), "mean ln distance")
+        marks.append(Note("no exponential growth is seen" if curve.exponent is not None else "no line to fit"))
+    return Panel(marks, Axis("time", unit), Axis("mean ln distance"))
 
 
-@of_result
-def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, exponent: int = 1) -> Axes:
+@drawn
+def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, exponent: int = 1) -> Panel:
     """How a Lyapunov exponent settles with the time over which it is taken.
 
     Args:
@@ -72,7 +74,7 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
     >>> slideway.plot.exponent_history(slideway.example()).get_ylabel()
     'running λ₁ [1/s]'
     """
-    data = _exponent(variable(result, "lyapunov_history"), exponent)
+    data = exponent_of(variable(result, "lyapunov_history"), exponent)
     members = chosen(result, member)
     rows = data.sel(member=members).values
     # All members are rescaled at the same times: the schedule is the scene's.
@@ -83,18 +85,15 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
     factor, unit = scaled("s", time)
     if not np.isfinite(rows).any():
         raise SlidewayError("none of these members has a running exponent; see slideway.statuses(result)")
-    ax = axis(ax)
-    ax.axhline(0, color=grey, lw=1)
-    draw_members(ax, factor * time, rows, members, failures(result, members))
     # The first values are those of single stretches, and would flatten all others.
     later = rows[:, rows.shape[1] // 10 :]
     low, high = np.nanmin(later), np.nanmax(later)
-    ax.set_ylim(min(low, 0) - 0.05 * (high - low), max(high, 0) + 0.1 * (high - low))
-    return finish(ax, label("time", unit), f"running {numbered('λ', exponent)} [1/s]")
+    y = Axis(f"running λ{lowered(exponent)}", "1/s", low=min(low, 0) - 0.05 * (high - low), high=max(high, 0) + 0.1 * (high - low))
+    return Panel([Level(0.0), *members_over(factor * time, rows, members, failures(result, members))], Axis("time", unit, tight=True), y)
 
 
-@of_result
-def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: int = 1, bins: int | str = "auto") -> Axes:
+@drawn
+def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: int = 1, bins: int | str = "auto") -> Panel:
     """Lyapunov exponents of all members that finished, with their mean and its 95 % interval.
 
     Of a single member the interval of its own estimate is drawn; of a sweep each column by itself, for columns are different mechanisms.
@@ -109,12 +108,12 @@ def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: 
     >>> slideway.plot.exponent_histogram(slideway.example()).get_xlabel()
     'λ₁ [1/s]'
     """
-    data = _exponent(variable(result, "lyapunov_exponent"), exponent).values
+    data = exponent_of(variable(result, "lyapunov_exponent"), exponent).values
     there = np.isfinite(data)
     if not there.any():
         raise SlidewayError("no member has an exponent, for none finished; see slideway.statuses(result)")
     columns = _columns(result)
-    ax = axis(ax)
+    marks: list[Mark] = []
     for number, (name, of_column) in enumerate(columns):
         values = data[of_column & there]
         if values.size == 0:
@@ -124,16 +123,14 @@ def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: 
         if values.size > 1:
             # Equal exponents would make bins of no width.
             span = np.ptp(values) or max(abs(mean), 1.0) * 1e-3
-            ax.hist(values, bins=bins if np.ptp(values) else 1, range=None if np.ptp(values) else (mean - span, mean + span),
-                    color=colours[number], alpha=0.7 if len(columns) == 1 else 0.45, edgecolor="white", lw=0.5)
-        ax.axvspan(mean - half, mean + half, color=tint, alpha=0.25, lw=0)
+            within = None if np.ptp(values) else (mean - span, mean + span)
+            heights, edges = np.histogram(values, bins if within is None else 1, within)
+            marks.append(Bars(edges, heights, None, colours[number], 0.7 if len(columns) == 1 else 0.45))
         missing = int(of_column.sum()) - values.size
         count = f"{values.size} members" + (f", {missing} failed" if missing else "") if of_column.sum() > 1 else "one member"
-        ax.axvline(mean, color=tint, lw=2, label=f"{name}({plus_minus(mean, half)}) 1/s, {count}")
-    ax.axvline(0, color=grey, lw=1)
-    if there.sum() == 1:
-        ax.set_yticks([])
-    return finish(ax, f"{numbered('λ', exponent)} [1/s]", "members" if there.sum() > 1 else "")
+        marks.append(Level(mean, "x", f"{name}({plus_minus(mean, half)}) 1/s, {count}", tint, 2, half=half))
+    alone = there.sum() == 1
+    return Panel([*marks, Level(0.0, "x")], Axis(f"λ{lowered(exponent)}", "1/s"), Axis("" if alone else "members", ticks={} if alone else None))
 
 
 def _columns(result: xr.Dataset) -> list[tuple[str, np.ndarray]]:
@@ -153,17 +150,10 @@ def _half_width(values: np.ndarray, result: xr.Dataset, exponent: int, of: np.nd
     """Of the 95 % interval: of the members' mean, or of the one member's own estimate."""
     if values.size > 1:
         half, late = (
-            _exponent(result[name], exponent).values[of] if name in result else None
+            exponent_of(result[name], exponent).values[of] if name in result else None
             for name in ("lyapunov_exponent_half_width", "lyapunov_exponent_late")
         )
         return half_width_of_mean(values, half, late, result["lyapunov_time"].values[of] if "lyapunov_time" in result else None)
     if "lyapunov_exponent_half_width" in result:
-        return float(_exponent(result["lyapunov_exponent_half_width"], exponent).values[of][0])
+        return float(exponent_of(result["lyapunov_exponent_half_width"], exponent).values[of][0])
     return float("nan")
-
-
-def _exponent(data: xr.DataArray, number: int) -> xr.DataArray:
-    count = data.sizes["exponent"]
-    if whole(number, "exponent", 1) > count:
-        raise SlidewayError(f"there is no exponent {number} in this result, which has {count}; use study.exponents = {number}")
-    return data.isel(exponent=number - 1)

@@ -1,0 +1,1 @@
+"""What plots and pages show, as data."""
