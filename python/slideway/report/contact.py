@@ -96,3 +96,14 @@ def planar_modes(touching: Flags) -> NDArray[np.int64]:
     surface = walls.all(2)
     points = walls.sum(2) * ~surface
     return np.stack([surface.sum(1), np.zeros(len(walls), int), points.sum(1)], 1)
+
+
+def mode_classes(triple: NDArray[np.int64]) -> NDArray[np.int64]:
+    """0 free, 1 point, 2 line, 3 surface: the stiffest contact of each configuration, as quantity mode_time counts it.
+
+    >>> from slideway.report.contact import mode_classes
+    >>> mode_classes(np.array([[0, 0, 0], [0, 1, 2], [1, 1, 0]])).tolist()
+    [0, 2, 3]
+    """
+    surfaces, lines, points = (triple[:, k] > 0 for k in range(3))
+    return np.where(surfaces, 3, np.where(lines, 2, np.where(points, 1, 0)))
