@@ -13,7 +13,7 @@
 #include "host/study/prediction.hpp"
 #include "host/study/probe.hpp"
 #include "host/study/series_analysis.hpp"
-#include "host/study/stored_state.hpp"
+#include "host/study/state_table.hpp"
 #include "host/study/tolerance_report.hpp"
 
 namespace slideway::cli {

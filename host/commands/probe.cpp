@@ -1,4 +1,4 @@
-#include "host/study/explanation.hpp"
+#include "host/study/probe.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -16,7 +16,7 @@
 #include "host/config/descriptors.hpp"
 #include "host/store/output_target.hpp"
 #include "host/study/series_file.hpp"
-#include "host/study/stored_state.hpp"
+#include "host/study/state_table.hpp"
 #include "host/study/study_run.hpp"
 #include "kernels/members/start.hpp"
 

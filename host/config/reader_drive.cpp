@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/backend/own_modules.hpp"
-#include "host/config/drive.hpp"
+#include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {

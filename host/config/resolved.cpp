@@ -1,6 +1,4 @@
 // A scene as TOML with every key in SI units.  Numbers are the shortest that read back to the same double.
-#include "host/config/resolved.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -8,10 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/drive.hpp"
+#include "host/config/document.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
-#include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
 #include "host/sampling/distribution.hpp"
 #include "kernels/members/complete_inputs.hpp"

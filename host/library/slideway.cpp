@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "host/backend/backend.hpp"
+#include "host/config/document.hpp"
 #include "host/config/scene.hpp"
-#include "host/config/scene_text.hpp"
 #include "host/library/state.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/store/memory_file.hpp"

@@ -1,6 +1,7 @@
 // Runs an ensemble: blocks of members over threads, results to a sink.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -8,11 +9,11 @@
 #include "host/backend/backend.hpp"
 #include "host/run/block_buffers.hpp"
 #include "host/run/block_sizes.hpp"
-#include "host/run/ensemble_totals.hpp"
 #include "host/run/member_queue.hpp"
 #include "host/run/member_set.hpp"
 #include "host/run/progress.hpp"
 #include "host/run/stop.hpp"
+#include "kernels/status.hpp"
 
 namespace slideway {
 
@@ -32,6 +33,21 @@ struct EnsemblePlan {
     BlockRequest request;
     MemberSource source;
     BlockProgram program;  // empty: integrates the members it took
+};
+
+/// What a run came to.  Sums of whole numbers, so the same for every order of the blocks.
+struct EnsembleTotals {
+    std::array<std::uint64_t, status_count> ended{};  // by status
+    std::uint64_t steps_accepted = 0, steps_rejected = 0, stiff_steps = 0;
+    std::uint64_t rhs_evaluations = 0, jacobian_evaluations = 0;
+    std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
+    double seconds = 0;                     // wall time
+    StopReason stopped = StopReason::none;  // whatever was still to do
+
+    std::uint64_t done() const;                               // members that ended, well or not
+    std::uint64_t failed() const;                             // otherwise than finished
+    double lane_utilisation() const;                          // useful / executed lane steps; 1 if there were none
+    EnsembleTotals& operator+=(EnsembleTotals const& other);  // of another rank; seconds too
 };
 
 /// Threads that this process may use at once (OMP_NUM_THREADS, else the processors it may run on).

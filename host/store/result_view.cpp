@@ -19,7 +19,7 @@
 #include "host/base/error.hpp"
 #include "host/base/memory_room.hpp"
 #include "host/base/open_file.hpp"
-#include "host/config/former_names.hpp"
+#include "host/config/outputs.hpp"
 #include "host/run/ranks.hpp"
 #include "host/store/column.hpp"
 

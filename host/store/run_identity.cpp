@@ -13,7 +13,6 @@
 #include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
 #include "host/config/document.hpp"
-#include "host/config/scene_text.hpp"
 
 namespace slideway {
 namespace {

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "host/run/progress.hpp"
-#include "host/study/check_sample.hpp"
 #include "host/study/member_numbers.hpp"
-#include "host/study/tolerance_members.hpp"
+#include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway {

@@ -1,4 +1,3 @@
-#include "host/study/result_tables.hpp"
 
 #include <algorithm>
 #include <map>

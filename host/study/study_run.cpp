@@ -10,10 +10,10 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/config/document.hpp"
-#include "host/store/finished_result.hpp"
+#include "host/store/block_statistics.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
-#include "host/store/statistics_merge.hpp"
+#include "host/store/shard_claim.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/verification.hpp"

@@ -14,7 +14,6 @@
 #include "host/statistics/error_bound.hpp"
 #include "host/store/data_file.hpp"
 #include "host/store/result_view.hpp"
-#include "host/study/check_sample.hpp"
 #include "host/study/member_numbers.hpp"
 
 namespace slideway {

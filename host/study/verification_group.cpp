@@ -3,7 +3,7 @@
 #include <map>
 
 #include "host/base/numbers.hpp"
-#include "host/config/former_names.hpp"
+#include "host/config/outputs.hpp"
 #include "host/store/column.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/verification.hpp"

@@ -36,7 +36,7 @@ TEST(SafeExits, WordsThatLetAUserRemoveFilesAreInOnePlace) {
     Pattern const words("\"[^\"]*" + of_need + "[^\"]*\""), anywhere(of_need);
     EXPECT_TRUE(words.match_in(R"(print("{}; {} is no longer needed");)"));
     EXPECT_TRUE(words.match_in(R"("give another name with -o, or remove the folder")"));
-    EXPECT_EQ(lines_with(words, {"host/store/finished_result.cpp"}, {": cannot remove the folder: "}), Lines{});
+    EXPECT_EQ(lines_with(words, {"host/store/shard_claim.cpp"}, {": cannot remove the folder: "}), Lines{});
     EXPECT_TRUE(anywhere.match_in("    The shards stay; remove the folder when they are no longer needed."));
     EXPECT_EQ(lines_with(anywhere, {}, {}, "python/slideway"), Lines{});
 }
