@@ -5,9 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"

@@ -1,4 +1,4 @@
-#include "host/commands/json.hpp"
+#include "host/commands/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/numbers.hpp"
-#include "host/commands/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/probe.hpp"

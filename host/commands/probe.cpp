@@ -11,7 +11,6 @@
 #include "host/base/error.hpp"
 #include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/store/output_target.hpp"

@@ -12,8 +12,7 @@
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
 #include "host/base/open_file.hpp"
-#include "host/base/shown.hpp"
-#include "host/base/utf8.hpp"
+#include "host/base/text.hpp"
 #include "host/config/settings.hpp"
 
 // toml++ asserts that "[" is followed by a key, and with NDEBUG has clang assume it, ahead of the code that reports the

@@ -1,4 +1,4 @@
-// A scene file as a tree of values that know where they stand, with the --set options laid over it.
+// A scene file as a tree of values that know where they stand, with the --set options laid over it; and its text, before it is parsed and as it is written.
 #pragma once
 
 #include <cstddef>
@@ -48,8 +48,6 @@ Node read_document(std::string const& text, std::string const& path, Overrides c
 
 /// The value of a node for a message: short, on one line.
 std::string shown_value(Node const& node);
-
-// The text of a scene file before it is parsed, and texts in messages.
 
 /// The content of a scene file.  @throws SceneError where it cannot be read.
 std::string read_scene_text(std::string const& path);

@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/base/shown.hpp"
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/config/document.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"

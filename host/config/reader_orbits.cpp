@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "host/base/numbers.hpp"
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {

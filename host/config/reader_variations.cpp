@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/config/reader.hpp"
 #include "host/sampling/copula.hpp"
 #include "host/sampling/distribution.hpp"

@@ -1,4 +1,4 @@
-#include "host/config/rules.hpp"
+#include "host/config/reader.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 #include <fmt/ranges.h>
 
 #include "host/config/loads.hpp"
-#include "host/config/reader.hpp"
 
 namespace slideway {
 

@@ -105,4 +105,32 @@ template <class ValueAt> Interval interval_of_ranks(std::uint64_t n, double p, d
 std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted, std::span<double const> probabilities,
                                                  double level = 0.95);
 
+// Counts of a sample in equal bins.
+
+inline constexpr std::size_t most_bins = 64;
+
+/// Bin i is edges[i] <= x < edges[i+1], the last one with its upper edge.
+struct Histogram {
+    std::vector<double> edges;           // [bins + 1], ascending; empty without finite numbers
+    std::vector<std::uint64_t> counts;   // [bins]
+    std::uint64_t below = 0, above = 0;  // -infinity, +infinity: in no bin
+};
+
+/// Equal bins from the least to the largest finite number.  Their number is that of Freedman and Diaconis, the range
+/// over 2 IQR n^(-1/3), rounded up and limited to [1, 64]; where the quartiles coincide but not the ends it is 64.  A
+/// sample of one value alone has one bin of no width, both edges that value.  Infinite numbers are counted apart and
+/// take no part in range, quartiles and n.
+/// Source: Freedman and Diaconis (1981), On the histogram as a density estimator, Z. Wahrscheinlichkeitstheorie 57.
+/// @param sorted ascending, no NaN.
+Histogram histogram(std::span<double const> sorted);
+
+/// What the rule goes by.
+struct HistogramRange {
+    double least, largest;      // finite
+    double quartiles[2];        // lower, upper
+    std::uint64_t numbers = 0;  // finite ones, > 0
+};
+/// The edges of its bins.
+std::vector<double> histogram_edges(HistogramRange const& range);
+
 }  // namespace slideway

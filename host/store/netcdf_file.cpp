@@ -14,9 +14,9 @@
 #include <netcdf_mem.h>
 
 #include "host/base/error.hpp"
-#include "host/base/memory_room.hpp"
 #include "host/base/numbers.hpp"
 #include "host/base/open_file.hpp"
+#include "host/base/process.hpp"
 
 namespace slideway {
 

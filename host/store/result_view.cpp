@@ -15,10 +15,9 @@
 
 #include <fmt/format.h>
 
-#include "host/base/apart.hpp"
 #include "host/base/error.hpp"
-#include "host/base/memory_room.hpp"
 #include "host/base/open_file.hpp"
+#include "host/base/process.hpp"
 #include "host/config/outputs.hpp"
 #include "host/run/ranks.hpp"
 #include "host/store/column.hpp"

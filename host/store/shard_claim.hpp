@@ -1,4 +1,4 @@
-// The right to write into a folder of shards.
+// The right to write into a folder of shards, and to remove it.
 #pragma once
 
 #include <map>

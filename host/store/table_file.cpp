@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
-#include "host/base/utf8.hpp"
+#include "host/base/text.hpp"
 
 namespace slideway {
 namespace {

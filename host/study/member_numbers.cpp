@@ -11,7 +11,6 @@
 
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
-#include "host/run/ensemble.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/orbit_schedule.hpp"
@@ -183,19 +182,18 @@ private:
     std::vector<std::size_t> quantities_, limited_;  // places in a member's row
 };
 
-void run_some(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, FreshTaker& taker) {
-    EnsemblePlan const plan = ensemble_plan(scene, MemberSet::of(members), run.backend, run.threads);
-    StopRequest const nobody;
-    BlockKernel const kernel = run.backend.kernel(scene.parts, plan.request.shadows.count > 0);
-    run_ensemble(plan, kernel, [&](BlockResult const& block) { taker.take(block); }, run.stop != nullptr ? *run.stop : nobody, run.progress, run.weight);
-}
-
 }  // namespace
+
+EnsembleTotals run_members(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, BlockSink const& sink) {
+    EnsemblePlan const plan = ensemble_plan(scene, MemberSet::of(members), run.backend, run.threads);
+    return run_ensemble(plan, run.backend.kernel(scene.parts, plan.request.shadows.count > 0), sink, run.stop, run.progress, run.weight);
+}
 
 MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<std::uint64_t> const& most_steps) {
     FreshTaker taker(scene, members);
+    BlockSink const take = [&](BlockResult const& block) { taker.take(block); };
     if (most_steps.empty()) {
-        run_some(scene, members, run, taker);
+        run_members(scene, members, run, take);
         return taker.numbers();
     }
     // One number of steps bounds a run: those that may take as many run together.
@@ -204,7 +202,7 @@ MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const
     for (auto const& [most, some] : by_bound) {
         Scene bounded = scene;
         bounded.integrator.max_steps = std::min(scene.integrator.max_steps, most);
-        run_some(bounded, some, run, taker);
+        run_members(bounded, some, run, take);
     }
     return taker.numbers();
 }

@@ -1,4 +1,4 @@
-// What members of a study came to, as the columns of its result have it or as running them again tells it.
+// What members of a study came to, as the columns of its result have it or as running them again tells it; and which of them run again.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/config/scene.hpp"
-#include "host/run/progress.hpp"
+#include "host/run/ensemble.hpp"
 #include "host/sampling/sobol_points.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/study/tolerance_report.hpp"
@@ -45,14 +45,16 @@ MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene
 /// Fills in how some members of a result end.  @param rows of the members
 void add_end_contacts(MemberNumbers& numbers, ToleranceMembers const& members, Scene const& scene, std::vector<std::size_t> const& rows);
 
-/// Runs members, and says what they came to in their order.
+/// How members run that no result keeps.
 struct FreshRun {
     Backend const& backend;
     int threads = 1;
-    StopRequest const* stop = nullptr;
+    StopRequest const& stop = never_stops;
     Progress* progress = nullptr;
     double weight = 1;  // of a member's work in the progress
 };
+EnsembleTotals run_members(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, BlockSink const& sink);
+/// Runs members, and says what they came to in their order.
 /// @param most_steps [members] after which a member is cut short; empty: the scene's integrator.max_steps alone
 MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<std::uint64_t> const& most_steps = {});
 

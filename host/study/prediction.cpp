@@ -213,9 +213,7 @@ std::optional<Trial> try_members(Scene const& scene, Backend const& backend, int
             steps += given_up && record.time > 0 ? own * std::max(1.0, end / record.time) : own;
         }
     };
-    EnsemblePlan const plan = ensemble_plan(trial, MemberSet::of(spread_over(all, count)), backend, threads);
-    StopRequest const nobody;
-    EnsembleTotals const totals = run_ensemble(plan, backend.kernel(trial.parts, plan.request.shadows.count > 0), take, nobody);
+    EnsembleTotals const totals = run_members(trial, spread_over(all, count), {backend, threads}, take);
 
     Trial found;
     found.members = count;

@@ -1,4 +1,4 @@
-// What a result file tells about its ensemble, for the end of a run and for `info`.
+// What a result file tells: about its ensemble and its orbits, for the end of a run and for `info`, and as tables for other programs.
 #pragma once
 
 #include <cstdint>
@@ -53,8 +53,6 @@ std::vector<FailedMember> failed_members(ResultView const& results, std::size_t 
 
 /// "finished", also "not_run".
 std::string name_of(Status status);
-
-// What a result file tells about the orbits of its members: exponents and sections.
 
 /// One exponent over the members that finished [1/s].
 struct ExponentSummary : ExponentOfMembers {

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "host/base/error.hpp"
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/study/result_summary.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "host/base/csv.hpp"
 #include "host/base/error.hpp"
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/units.hpp"
 #include "host/store/result_layout.hpp"

@@ -1,4 +1,4 @@
-// States to probe: the scene's start, or the rows of a CSV table in the format of tests/golden/rhs_*.csv.
+// States to probe: the scene's start, the rows of a CSV table in the format of tests/golden/rhs_*.csv, or what a result has stored.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,7 @@ StateTable state_table(Scene const& scene, std::span<double const> states, std::
 /// @param name of the table, for messages.  @throws SceneError `name:line: column …`.
 StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene);
 
-// A state that a result has stored, to be probed.
-
+/// A state that a result has stored, to be probed.
 struct StoredState {
     std::uint64_t member;
     double time;                  // [s]

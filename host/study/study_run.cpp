@@ -215,7 +215,7 @@ void StudyRun::merge_all(StopRequest const& stop, std::optional<ToleranceReport>
 
 std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress) {
     return [&scene, &backend, threads, &stop, progress](DataFile& file) {
-        write_verification(file, verify(ResultView(file), scene, backend, {scene.verify, threads, &stop, progress}));
+        write_verification(file, verify(ResultView(file), scene, backend, {scene.verify, threads, stop, progress}));
     };
 }
 

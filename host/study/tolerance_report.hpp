@@ -13,7 +13,6 @@
 #include "host/run/ensemble.hpp"
 #include "host/sampling/design.hpp"
 #include "host/statistics/correlation.hpp"
-#include "host/statistics/histogram.hpp"
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/block_statistics.hpp"

@@ -59,7 +59,7 @@ TEST(SafeExits, OnlyOnePrinterWritesToTheStreams) {
 
 TEST(SafeExits, SignalsThatStopARunAreListedOnce) {
     Pattern const signals(R"(\bSIG(INT|TERM|HUP|QUIT|USR1|USR2|ALRM)\b)");
-    EXPECT_EQ(lines_with(signals, {"host/base/stop_signals.hpp"}), Lines{});
+    EXPECT_EQ(lines_with(signals, {"host/base/process.hpp"}), Lines{});
 }
 
 }  // namespace
