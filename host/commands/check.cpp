@@ -12,7 +12,7 @@
 #include "host/config/outputs.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/study/continued_sweep.hpp"
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/prediction.hpp"
 
 namespace slideway::cli {

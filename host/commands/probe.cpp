@@ -209,7 +209,7 @@ int execute(ProbeArguments const& arguments) {
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
     if (target) target->write(probed_text(table, results));
     if (arguments.json) {
-        print_out("{}", probe_json({scene.path, table, results, probed.stored, arguments.explain}));
+        print_out("{}", probe_json(scene.path, table, results, probed.stored, arguments.explain));
     } else if (target) {
         return exit_code::done;
     } else if (!arguments.table.empty() && !arguments.explain) {

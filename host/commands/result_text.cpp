@@ -226,7 +226,7 @@ void print_indices(ToleranceReport const& report) {
     if (indices.incomplete > 0) heading += fmt::format("; {} incomplete", indices.incomplete);
     print_lines(0, heading);
     TextRows table{{"quantity", "input", "first order", "total"}};
-    auto const text = [](IndexEstimate const& index) { return share(index.value) + interval_text(index.interval); };
+    auto const text = [](Estimate const& index) { return share(index.value) + interval_text(index.interval); };
     for (ColumnIndices const& entry : indices.columns) {
         SobolIndices const& found = entry.indices;
         std::string name = entry.column.name();
@@ -256,7 +256,7 @@ void print_correlations(ToleranceReport const& report) {
         std::vector<std::string> cells;
         for (std::size_t rank = 0; rank < std::min(top_inputs, entry.ranking.size()); ++rank) {
             std::size_t const input = entry.ranking[rank];
-            CorrelationEstimate const& estimate = entry.ranks[input];
+            Estimate const& estimate = entry.ranks[input];
             if (std::isnan(estimate.value)) break;
             if (cells.empty()) cells.push_back(fmt::format("{};", share(entry.regression.r_squared)));
             cells.push_back(

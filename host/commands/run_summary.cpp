@@ -8,7 +8,7 @@
 
 #include "host/config/descriptors.hpp"
 #include "host/store/run_identity.hpp"
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
 

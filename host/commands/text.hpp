@@ -131,14 +131,9 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
 std::string stopped_json(std::string const& folder, std::uint64_t left);
 /// @param trial nothing where no member was tried
 std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend);
-struct ProbedStates {
-    std::string const& path;  // of the scene or the result
-    StateTable const& table;
-    std::vector<ProbeResult> const& results;
-    std::optional<StoredState> const& stored;  // where the state is from
-    bool explained;
-};
-std::string probe_json(ProbedStates const& probed);
+/// @param path of the scene or the result  @param stored where the state is from
+std::string probe_json(std::string const& path, StateTable const& table, std::vector<ProbeResult> const& results, std::optional<StoredState> const& stored,
+                       bool explained);
 std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& analysis,
                        std::vector<std::pair<std::string, std::string>> const& rows);
 

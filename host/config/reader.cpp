@@ -116,14 +116,6 @@ void refuse_strange(Node const& node, Parts const& parts) {
     refuse(node, {fmt::format("contact.law \"{}\" does not know it", contact_info(parts).name), "remove it"});
 }
 
-void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism) {
-    throw SceneError(fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, kind_of(mechanism)));
-}
-
-void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead) {
-    refuse(node, {fmt::format("{}, so there are no revolutions", why_no_period(parts)), fmt::format("use {} instead", instead)});
-}
-
 void refuse_missing(Node const& asking, std::string_view key, std::string_view why, std::string_view advice) {
     throw SceneError(fmt::format("{}: {} is missing ({}); {}", asking.where, key, why, advice));
 }

@@ -117,20 +117,14 @@ void warn_of_idle_sources(Reading& reading);
 void read_variations(Reading& reading);
 /// The entries of [study.vary], in the order of Scene::variations.
 std::vector<Node const*> varied_nodes(Node const& root);
-/// The dotted key of one.
-std::string_view varied_name(Node const& node);
 /// Which study, of how many members, and what it is asked for; adds the kernel parts that a swept key needs.
 void read_study(Reading& reading);
 /// How the members are spread: Scene::design, and how many members follow from it; needs the study and what varies.
 void read_design(Reading& reading);
 /// study.table: Scene::design.table and a variation for each of its columns.
 void read_member_table(Reading& reading, Node const& node);
-/// [study.limits]; adds their quantities to those asked for.
-void read_limits(Reading& reading);
 /// The keys of a study of orbits: Scene::chaos.
 void read_orbits(Reading& reading);
-/// study.section: where a poincare study takes its states.
-void read_section(Node const& table, Scene& scene);
 /// What a sweep sweeps, through which values.
 void read_sweep(Reading& reading);
 /// [integrator]; needs the period of the drive and the study.
@@ -176,9 +170,6 @@ double fastest_period(Scene const& scene);
 /// The least reversal_time that members of a carriage may have [s], > 0.
 double shortest_reversal(Scene const& scene);
 
-/// Why the scene's members do not have a quantity of their mechanism, where it is so.
-std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene);
-
 /// Most numbers of one kind in a result file, 80 GB.
 inline constexpr double most_values = 1e10;
 
@@ -190,12 +181,8 @@ inline constexpr double most_values = 1e10;
 [[noreturn]] void refuse_replaced(Node const& node, Key const& key, Parts const& parts);
 /// A key that the scene's law does not know.
 [[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
-/// A quantity or a series that the scene's mechanism does not have.
-[[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
 /// What `node` gives, or the study whose default it is; `key` is the dotted name.
 [[noreturn]] void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem);
-/// What is counted by revolutions where nothing turns.  @param instead key that says it in seconds
-[[noreturn]] void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead);
 /// A node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);
 /// What asks for a key that is not there: "study.points is missing (how many columns there are); add points = 50".

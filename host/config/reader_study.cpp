@@ -84,7 +84,7 @@ std::size_t read_samples(Reading const& reading, double length) {
     std::uint64_t const per_turn = node != nullptr ? read_count(*node, setting("study.samples_per_revolution")) : 0;
     if (per_turn == 0) return 0;
     double const turn = turn_length(scene);
-    if (!std::isfinite(turn)) refuse_at_rest(*node, scene.parts, "study.samples");
+    if (!std::isfinite(turn)) refuse(*node, {why_no_period(scene.parts) + ", so there are no revolutions", "use study.samples instead"});
     double const turns = scene.chaos.span.revolutions ? scene.chaos.span.value : length / turn;
     double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * turns));
     if (intervals >= most) refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1), fmt::format("ask for at most {}", most)});
@@ -111,7 +111,26 @@ void read_times(Reading const& reading, double end) {
         refuse(*samples, {fmt::format("members are sampled at common times, and their revolutions last differently: {} is drawn", varied->name), "use study.duration in place of study.revolutions"});
 }
 
+/// A quantity or a series that the scene's mechanism does not have.
+[[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism) {
+    throw SceneError(fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, kind_of(mechanism)));
+}
+
 Problem const untold_by_rigid_contacts{"rigid contacts tell their normal forces in sum alone", "remove it, or use another contact.law"};
+
+/// Why the scene's members do not have a quantity of their mechanism, where it is so.
+std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
+    if (scene.parts.rigid && selects(selections::force_quantities & without_rigid_contact, quantity)) return untold_by_rigid_contacts;
+    if (scene.integrator.method == Method::moreau_jean && selects(of_single_impacts, quantity))
+        return Problem{"moreau_jean knows impulses of whole steps, and no single impacts", "remove it, or use method = \"auto\""};
+    if (scene.parts.rigid && selects(without_rigid_contact, quantity))
+        return Problem{"rigid contacts have neither peaks nor a potential", "remove it, or use another contact.law"};
+    if (!scene.parts.rigid && selects(of_rigid_contact, quantity))
+        return Problem{"only impacts of rigid contacts have a bound of their energy", "remove it, or use contact.law = \"rigid\""};
+    if (quantity == Quantity::switching_energy && makes_energy(scene.parts) && !scene.integrator.locate_modes)
+        return Problem{"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"};
+    return {};
+}
 
 void read_series(Node const& node, std::size_t place, Scene& scene) {
     if (scene.sample_times.empty()) {
@@ -155,72 +174,6 @@ void check_size(Reading const& reading) {
            {fmt::format("the time series of {} members would hold {:.3g} numbers", scene.members, values),
             fmt::format("ask for fewer samples, members or series, at most {:g} numbers", most_values)});
 }
-
-}  // namespace
-
-std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
-    if (scene.parts.rigid && selects(selections::force_quantities & without_rigid_contact, quantity)) return untold_by_rigid_contacts;
-    if (scene.integrator.method == Method::moreau_jean && selects(of_single_impacts, quantity))
-        return Problem{"moreau_jean knows impulses of whole steps, and no single impacts", "remove it, or use method = \"auto\""};
-    if (scene.parts.rigid && selects(without_rigid_contact, quantity))
-        return Problem{"rigid contacts have neither peaks nor a potential", "remove it, or use another contact.law"};
-    if (!scene.parts.rigid && selects(of_rigid_contact, quantity))
-        return Problem{"only impacts of rigid contacts have a bound of their energy", "remove it, or use contact.law = \"rigid\""};
-    if (quantity == Quantity::switching_energy && makes_energy(scene.parts) && !scene.integrator.locate_modes)
-        return Problem{"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"};
-    return {};
-}
-
-std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs, double seconds) {
-    double const turn = steady_period(parts, inputs);
-    if (!std::isfinite(turn)) return {};
-    bool const cranks = info(parts.mechanism).drive == DriveKind::crank;
-    double const radius = cranks ? inputs.crank_length : inputs.stroke / 2;
-    constexpr double of_clearance = 1e-6;
-    double const per_turn = 2 * std::numbers::pi * std::numeric_limits<double>::epsilon() * radius;
-    double const most = of_clearance * play_y(inputs) / per_turn, turns = seconds / turn;
-    if (!(turns > most)) return {};
-    return Problem{fmt::format("after {:.3g} {} the last bit of a number of double precision moves the drive by {:.2g} of the clearance", turns,
-                               cranks ? "revolutions" : "cycles", of_clearance * turns / most),
-                   fmt::format("stay below {:.2g} s, or run several members", most * turn)};
-}
-
-void read_study(Reading& reading) {
-    Scene& scene = reading.scene;
-    if (Node const* const kind = reading.given("study.kind")) read_value(*kind, setting("study.kind"), scene.study);
-    check_keys(reading);
-    reading.read_table("study");
-    read_design(reading);
-    if (scene.study == StudyKind::sweep) read_sweep(reading);
-    if (runs_to_end(scene.study)) apply_rules(reading, Known::orbits);
-    else read_orbits(reading);
-    apply_rules(reading, Known::study);
-}
-
-void read_recording(Reading& reading) {
-    Scene& scene = reading.scene;
-    bool const samples = runs_to_end(scene.study);
-    double const end = samples ? read_end_time(reading) : run_length(scene).seconds;
-    RunLength const length = samples ? RunLength{end, end, 0} : run_length(scene);
-    scene.integrator.end_time = end;
-    read_steps(reading, length);
-    check_drive_is_resolved(reading, length.longest);
-    if (samples) read_times(reading, end);
-    if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;
-    Node const* const list = reading.given("study.quantities");
-    if (list != nullptr) read_quantities(reading, *list);
-    read_limits(reading);
-    if (scene.study == StudyKind::tolerance && scene.quantities == 0) {
-        refuse_missing(list != nullptr ? *list : *reading.given("study.kind"), "a quantity", "a tolerance study tells how quantities scatter",
-                       "add quantities = [\"mean_normal_force\", \"friction_loss\"], or see `slideway list`");
-    }
-    // The audit runs anyway, and whoever takes such a method should see what it says.
-    if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
-    check_size(reading);
-    apply_rules(reading, Known::all);
-}
-
-namespace {
 
 [[noreturn]] void refuse_name(Node const& node, std::string const& why, std::string const& advice) { refuse_that(node, "cannot be limited", {why, advice}); }
 
@@ -271,8 +224,7 @@ Limit read_limit(Node const& node, QuantityInfo const& info, std::string label) 
     return limit;
 }
 
-}  // namespace
-
+/// [study.limits]; adds their quantities to those asked for.
 void read_limits(Reading& reading) {
     Node const* const table = reading.given("study.limits");
     if (table == nullptr) return;
@@ -286,6 +238,57 @@ void read_limits(Reading& reading) {
         scene.limits.push_back(read_limit(node, quantity, label));
         scene.quantities |= Selection{1} << place;
     }
+}
+
+}  // namespace
+
+std::optional<Problem> unresolved_drive(Parts const& parts, Inputs const& inputs, double seconds) {
+    double const turn = steady_period(parts, inputs);
+    if (!std::isfinite(turn)) return {};
+    bool const cranks = info(parts.mechanism).drive == DriveKind::crank;
+    double const radius = cranks ? inputs.crank_length : inputs.stroke / 2;
+    constexpr double of_clearance = 1e-6;
+    double const per_turn = 2 * std::numbers::pi * std::numeric_limits<double>::epsilon() * radius;
+    double const most = of_clearance * play_y(inputs) / per_turn, turns = seconds / turn;
+    if (!(turns > most)) return {};
+    return Problem{fmt::format("after {:.3g} {} the last bit of a number of double precision moves the drive by {:.2g} of the clearance", turns,
+                               cranks ? "revolutions" : "cycles", of_clearance * turns / most),
+                   fmt::format("stay below {:.2g} s, or run several members", most * turn)};
+}
+
+void read_study(Reading& reading) {
+    Scene& scene = reading.scene;
+    if (Node const* const kind = reading.given("study.kind")) read_value(*kind, setting("study.kind"), scene.study);
+    check_keys(reading);
+    reading.read_table("study");
+    read_design(reading);
+    if (scene.study == StudyKind::sweep) read_sweep(reading);
+    if (runs_to_end(scene.study)) apply_rules(reading, Known::orbits);
+    else read_orbits(reading);
+    apply_rules(reading, Known::study);
+}
+
+void read_recording(Reading& reading) {
+    Scene& scene = reading.scene;
+    bool const samples = runs_to_end(scene.study);
+    double const end = samples ? read_end_time(reading) : run_length(scene).seconds;
+    RunLength const length = samples ? RunLength{end, end, 0} : run_length(scene);
+    scene.integrator.end_time = end;
+    read_steps(reading, length);
+    check_drive_is_resolved(reading, length.longest);
+    if (samples) read_times(reading, end);
+    if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;
+    Node const* const list = reading.given("study.quantities");
+    if (list != nullptr) read_quantities(reading, *list);
+    read_limits(reading);
+    if (scene.study == StudyKind::tolerance && scene.quantities == 0) {
+        refuse_missing(list != nullptr ? *list : *reading.given("study.kind"), "a quantity", "a tolerance study tells how quantities scatter",
+                       "add quantities = [\"mean_normal_force\", \"friction_loss\"], or see `slideway list`");
+    }
+    // The audit runs anyway, and whoever takes such a method should see what it says.
+    if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
+    check_size(reading);
+    apply_rules(reading, Known::all);
 }
 
 }  // namespace slideway

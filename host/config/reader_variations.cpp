@@ -7,7 +7,7 @@
 
 #include "host/base/text.hpp"
 #include "host/config/reader.hpp"
-#include "host/sampling/copula.hpp"
+#include "host/sampling/design.hpp"
 #include "host/sampling/distribution.hpp"
 
 namespace slideway {
@@ -92,6 +92,9 @@ void collect_variations(Node const& table, std::vector<Node const*>& found) {
     }
 }
 
+/// The dotted key of an entry of [study.vary].
+std::string_view varied_name(Node const& node) { return std::string_view(node.name).substr(std::string_view("study.vary.").size()); }
+
 }  // namespace
 
 std::string key_advice(std::string_view name, Scene const& scene) {
@@ -136,8 +139,6 @@ std::vector<Node const*> varied_nodes(Node const& root) {
     collect_variations(*table, entries);
     return entries;
 }
-
-std::string_view varied_name(Node const& node) { return std::string_view(node.name).substr(std::string_view("study.vary.").size()); }
 
 void read_variations(Reading& reading) {
     for (Node const* const node : varied_nodes(reading.root)) {

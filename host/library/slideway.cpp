@@ -14,7 +14,7 @@
 #include "host/store/memory_file.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/admission.hpp"

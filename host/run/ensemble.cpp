@@ -265,10 +265,6 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, BlockKernel const& kernel,
     return run_ensemble(plan, queue, kernel, sink, stop, progress, weight);
 }
 
-std::uint64_t EnsembleTotals::done() const { return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}); }
-
-std::uint64_t EnsembleTotals::failed() const { return done() - ended[static_cast<std::size_t>(Status::finished)]; }
-
 EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& other) {
     for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += other.ended[i];
     steps_accepted += other.steps_accepted;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <span>
 
 #include "host/backend/backend.hpp"
@@ -76,8 +77,8 @@ struct EnsembleTotals {
     double seconds = 0;                     // wall time
     StopReason stopped = StopReason::none;  // whatever was still to do
 
-    std::uint64_t done() const;                               // members that ended, well or not
-    std::uint64_t failed() const;                             // otherwise than finished
+    std::uint64_t done() const { return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}); }  // well or not
+    std::uint64_t failed() const { return done() - ended[static_cast<std::size_t>(Status::finished)]; }  // otherwise than finished
     double lane_utilisation() const;                          // useful / executed lane steps; 1 if there were none
     EnsembleTotals& operator+=(EnsembleTotals const& other);  // of another rank; seconds too
 };

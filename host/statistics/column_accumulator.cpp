@@ -53,8 +53,6 @@ double ColumnAccumulator::max() const {
     return positive_infinities_ > 0 ? infinity : largest_;
 }
 
-double ColumnAccumulator::mean() const { return sum_.value() / static_cast<double>(count()); }
-
 double ColumnAccumulator::sd() const {
     if (count() < 2 || !std::isfinite(sum_.value())) return nan;
     if (!squares_.is_finite()) return infinity;
@@ -103,8 +101,6 @@ Histogram ColumnAccumulator::histogram() const {
     }
     return result;
 }
-
-Summary ColumnAccumulator::summary() const { return {count(), missing(), mean(), sd(), min(), quantile(0.5), max()}; }
 
 std::vector<std::byte> ColumnAccumulator::bytes() const {
     ByteWriter out;

@@ -81,7 +81,7 @@ public:
     double max() const;
 
     /// Of Σx correctly rounded, over the count; an infinity where the sum is beyond the doubles.
-    double mean() const;
+    double mean() const { return sum_.value() / static_cast<double>(count()); }
     /// √((n Σx² - (Σx)²)/(n (n-1))), the difference without rounding: accurate also where sd << |mean|.
     /// @return NaN for less than two numbers and for infinite ones.
     double sd() const;
@@ -97,7 +97,7 @@ public:
     /// the sketch count where its answer for them lies: near an edge they may count beside it, by 2^-10 of their
     /// magnitude.
     Histogram histogram() const;
-    Summary summary() const;
+    Summary summary() const { return {count(), missing(), mean(), sd(), min(), quantile(0.5), max()}; }
 
     /// Little-endian; the same for the same numbers, however they came together.
     std::vector<std::byte> bytes() const;

@@ -64,7 +64,7 @@ Interval mean_interval(Summary const& summary, double level) {
 }
 
 Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level) {
-    Proportion result{successes, trials, nan, {0, 1}};
+    Proportion result{{nan, {0, 1}}, successes, trials};
     if (trials == 0) return result;
     auto const n = static_cast<double>(trials);
     double const p = static_cast<double>(successes) / n;
@@ -98,7 +98,7 @@ std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted,
                                                  double level) {
     std::vector<QuantileEstimate> estimates;
     for (double const p : probabilities) {
-        estimates.push_back({p, quantile(sorted, p), quantile_interval(sorted, p, level)});
+        estimates.push_back({{quantile(sorted, p), quantile_interval(sorted, p, level)}, p});
     }
     return estimates;
 }

@@ -18,6 +18,12 @@ struct Interval {
     double half_width() const { return 0.5 * (high - low); }
 };
 
+/// A number and its interval.
+struct Estimate {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    Interval interval;
+};
+
 /// Of the numbers that are not NaN; all NaN when there are none.
 struct Summary {
     std::size_t count = 0;    // numbers used
@@ -53,12 +59,8 @@ template <class ValueAt> double quantile_of(std::uint64_t n, double p, ValueAt v
 /// @param sorted ascending, no NaN.
 double quantile(std::span<double const> sorted, double p);
 
-/// Share of members with a property.
-struct Proportion {
-    std::uint64_t successes = 0, trials = 0;
-    double value = std::numeric_limits<double>::quiet_NaN();  // successes / trials; NaN without trials
-    Interval interval;
-};
+/// Share of members with a property: successes / trials, NaN without trials.
+struct Proportion : Estimate { std::uint64_t successes = 0, trials = 0; };
 
 /// Score interval of a proportion p̂ = k/n of independent trials: the p with |p̂ - p| <= z √(p(1-p)/n), that is
 /// (p̂ + z²/2n ± z √(p̂(1-p̂)/n + z²/4n²)) / (1 + z²/n), z the (1+level)/2 quantile of the normal distribution.  Its
@@ -70,11 +72,8 @@ struct Proportion {
 /// @param successes k <= trials n.  @param level in (0, 1).  @return [0, 1] as interval without trials.
 Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level = 0.95);
 
-struct QuantileEstimate {
-    double p;      // probability
-    double value;  // sample quantile, type 7
-    Interval interval;
-};
+/// Sample quantile, type 7, of a probability p.
+struct QuantileEstimate : Estimate { double p; };
 
 /// Ranks, from 1, of two order statistics; 0 and n + 1 where there is none.
 struct RankInterval {

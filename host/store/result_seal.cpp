@@ -18,7 +18,7 @@
 #include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway {
 namespace {

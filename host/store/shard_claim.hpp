@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "host/base/file_lock.hpp"
-#include "host/store/result_view.hpp"
 #include "host/store/run_identity.hpp"
+#include "host/store/result_view.hpp"
 #include "host/store/shard_folder.hpp"
 
 namespace slideway {

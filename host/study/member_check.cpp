@@ -15,8 +15,8 @@
 #include "host/sampling/random.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/study/continued_sweep.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/member_numbers.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway {
@@ -46,6 +46,46 @@ std::vector<double> shared_bounds(std::vector<double> const& work) {
         bounds[i] = bound;
     }
     return bounds;
+}
+
+/// A group for each value; none where there are too many of them.
+std::vector<MemberGroup> by_value(std::string_view key, std::vector<double> const& values,
+                                  ToleranceMembers const& members, std::size_t most) {
+    std::map<double, MemberGroup> groups;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        if (!members.finished(row)) continue;
+        auto& group = groups[values[row]];
+        if (groups.size() > most) return {};  // before there are as many as members
+        group.has.resize(values.size());
+        group.has[row] = 1;
+    }
+    std::vector<MemberGroup> found;
+    if (groups.size() < 2 || groups.size() > most) return found;
+    for (auto& [value, group] : groups) {
+        group.name = fmt::format("{} = {:.6g}", key, value);
+        found.push_back(std::move(group));
+    }
+    return found;
+}
+
+/// All, and behind it one for each value of whatever takes few: the parameter of a sweep, lists and grids with at most `most_values` of them, that is
+/// two members or more to each on average.
+std::vector<MemberGroup> member_groups(ToleranceMembers const& members, Scene const& scene) {
+    constexpr std::size_t most_values = 16;
+    std::vector<MemberGroup> groups{{"", std::vector<char>(members.size())}};
+    for (std::size_t row = 0; row < members.size(); ++row) groups.front().has[row] = members.finished(row);
+    auto const add = [&](Key const& key, std::size_t most) {
+        std::vector<MemberGroup> found = by_value(key.name, members.column(variable_name(key.name)), members, most);
+        std::ranges::move(found, std::back_inserter(groups));
+    };
+    if (scene.study == StudyKind::sweep) add(*scene.chaos.parameter, members.size());
+    // Starts of a sweep come again in each column, and rows of a table may: they are no values that the study is about.
+    std::size_t const most = std::min(most_values, groups.front().size() / 2);
+    for (Variation const& variation : scene.variations) {
+        bool const is_list = variation.column == Variation::no_column && variation.distribution.kind == Distribution::Kind::values;
+        if (is_list || scene.design.kind == DesignKind::grid) add(*variation.key, most);
+    }
+    return groups;
 }
 
 /// The members of a study, and which of them run again.
@@ -329,50 +369,11 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
 }
 namespace {
 
-/// A group for each value; none where there are too many of them.
-std::vector<MemberGroup> by_value(std::string_view key, std::vector<double> const& values,
-                                  ToleranceMembers const& members, std::size_t most) {
-    std::map<double, MemberGroup> groups;
-    for (std::size_t row = 0; row < values.size(); ++row) {
-        if (!members.finished(row)) continue;
-        auto& group = groups[values[row]];
-        if (groups.size() > most) return {};  // before there are as many as members
-        group.has.resize(values.size());
-        group.has[row] = 1;
-    }
-    std::vector<MemberGroup> found;
-    if (groups.size() < 2 || groups.size() > most) return found;
-    for (auto& [value, group] : groups) {
-        group.name = fmt::format("{} = {:.6g}", key, value);
-        found.push_back(std::move(group));
-    }
-    return found;
-}
-
 SobolAxis scrambled_axis(std::uint64_t seed) {
     return {sobol_directions(1).front(), {seed, name_hash("verification")}, Stream::scramble};
 }
 
 }  // namespace
-
-std::size_t MemberGroup::size() const { return static_cast<std::size_t>(std::ranges::count(has, 1)); }
-
-std::vector<MemberGroup> member_groups(ToleranceMembers const& members, Scene const& scene) {
-    std::vector<MemberGroup> groups{{"", std::vector<char>(members.size())}};
-    for (std::size_t row = 0; row < members.size(); ++row) groups.front().has[row] = members.finished(row);
-    auto const add = [&](Key const& key, std::size_t most) {
-        std::vector<MemberGroup> found = by_value(key.name, members.column(variable_name(key.name)), members, most);
-        std::ranges::move(found, std::back_inserter(groups));
-    };
-    if (scene.study == StudyKind::sweep) add(*scene.chaos.parameter, members.size());
-    // Starts of a sweep come again in each column, and rows of a table may: they are no values that the study is about.
-    std::size_t const most = std::min(most_values, groups.front().size() / 2);
-    for (Variation const& variation : scene.variations) {
-        bool const is_list = variation.column == Variation::no_column && variation.distribution.kind == Distribution::Kind::values;
-        if (is_list || scene.design.kind == DesignKind::grid) add(*variation.key, most);
-    }
-    return groups;
-}
 
 CheckSample::CheckSample(std::vector<std::size_t> rows, std::vector<MemberGroup> const& groups,
                          std::vector<double> const& cost, std::uint64_t seed)

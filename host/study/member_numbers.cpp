@@ -13,7 +13,6 @@
 #include "host/config/descriptors.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/probe.hpp"
 #include "kernels/members/start.hpp"
 
@@ -68,8 +67,6 @@ std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> in
 double work_of(double right_hand_sides, double jacobians) { return right_hand_sides + jacobian_work * jacobians; }
 
 }  // namespace
-
-double MemberNumbers::total_work() const { return std::accumulate(work.begin(), work.end(), 0.0); }
 
 std::vector<std::uint64_t> spread_over(std::uint64_t all, std::uint64_t count) {
     std::vector<std::uint64_t> members;

@@ -1,8 +1,10 @@
 // What members of a study came to, as the columns of its result have it or as running them again tells it; and which of them run again.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -30,7 +32,7 @@ struct MemberNumbers {
     std::vector<std::uint64_t> steps = {};     // [members] tried
     std::vector<double> energy_residual = {};  // [members] J, of a check that asks for it; else empty
 
-    double total_work() const;
+    double total_work() const { return std::accumulate(work.begin(), work.end(), 0.0); }
 };
 
 /// As many of [0, all) as are asked for, evenly over them: they stand for all.
@@ -64,14 +66,8 @@ MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const
 struct MemberGroup {
     std::string name;       // "mechanism.crank_speed = 20"; "" of all
     std::vector<char> has;  // [rows] whether a member is in it
-    std::size_t size() const;
+    std::size_t size() const { return static_cast<std::size_t>(std::ranges::count(has, 1)); }
 };
-
-/// All, and behind it one for each value of whatever takes few: the parameter of a sweep, lists and grids with at most `most_values` of them, that is
-/// two members or more to each on average.
-/// @param rows those of the members that finished, which alone count
-std::vector<MemberGroup> member_groups(ToleranceMembers const& members, Scene const& scene);
-inline constexpr std::size_t most_values = 16;
 
 /// Draws rows without putting back.  They lie in the order of their groups, and within them of their cost; draws follow a scrambled Sobol sequence
 /// along that order, so that any 2^k in a row fall into as many equal stretches of it, and each row is as likely as any other.

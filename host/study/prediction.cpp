@@ -9,7 +9,6 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/member_numbers.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"

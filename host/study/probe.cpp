@@ -152,8 +152,6 @@ void add_modes(std::vector<FaceMode>& modes, int face, std::array<bool, 4> const
 
 std::string ApexPair::name() const { return fmt::format("P{} {}", apex + 1, face_names[face]); }
 
-ApexPair const& Explanation::nearest() const { return *std::ranges::max_element(pairs, {}, &ApexPair::depth); }
-
 Explanation explain(StateTable const& table, std::size_t row, ProbeResult const& result) {
     MechanismInfo const& mechanism = info(table.mechanism);
     if (!mechanism.spatial)

@@ -1,6 +1,7 @@
 // Probing: what the kernels say about single states.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -71,7 +72,7 @@ struct Explanation {
     std::vector<FaceMode> modes;
     std::array<double, 3> friction, force, torque;  // on the slider: along the way's axes, along the ground's two, the torque about the hole's centre [N, N m]
     double length, width, depth;  // of the joint along X, Y and Z [m]
-    ApexPair const& nearest() const;  // the deepest
+    ApexPair const& nearest() const { return *std::ranges::max_element(pairs, {}, &ApexPair::depth); }  // the deepest
 };
 
 /// @throws SceneError for a mechanism whose slider has no eight apices

@@ -154,8 +154,6 @@ void StudyRun::claim(ShardClaim::Wanted const& wanted) {
     work_ = {mine_.without(claim_->done()), claim_->done().count()};
 }
 
-std::vector<DamagedShard> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<DamagedShard>(); }
-
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.
     std::uint64_t const shards =

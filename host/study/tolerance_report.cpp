@@ -101,7 +101,7 @@ ColumnStatistics statistics_of(ColumnAccumulator const& values, QuantityColumn c
     ColumnStatistics result{column, values.summary(), {}, {}, values.histogram()};
     if (random) result.mean = mean_interval(result.summary, confidence_level);
     for (double const p : reported_quantiles)
-        result.quantiles.push_back({p, values.quantile(p), random ? values.quantile_interval(p, confidence_level) : Interval()});
+        result.quantiles.push_back({{values.quantile(p), random ? values.quantile_interval(p, confidence_level) : Interval()}, p});
     return result;
 }
 

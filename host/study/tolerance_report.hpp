@@ -62,7 +62,7 @@ struct ColumnCorrelations {
     QuantityColumn column;
     std::string why_none;                    // as of indices
     std::size_t members = 0;                 // used: finished, with a number
-    std::vector<CorrelationEstimate> ranks;  // [inputs], Spearman's
+    std::vector<Estimate> ranks;  // [inputs], Spearman's
     StandardisedRegression regression;       // [inputs]
     std::vector<std::size_t> ranking;        // inputs, the largest magnitude of the rank correlation first
 };

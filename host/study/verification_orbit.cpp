@@ -6,7 +6,6 @@
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/study/ensemble_plan.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
