@@ -5,7 +5,7 @@
 #include <cctype>
 #include <fstream>
 
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway {
 

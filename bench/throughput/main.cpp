@@ -7,7 +7,7 @@
 // several repetitions, and medians.  bench/compare.py compares two builds, scripts/bench.sh makes table and picture.
 #include "bench/throughput/throughput.hpp"
 
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway::bench {
 

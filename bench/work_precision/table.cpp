@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "host/backend/backend.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway::bench {
 namespace {

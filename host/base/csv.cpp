@@ -213,8 +213,6 @@ void CsvReader::require_columns() const {
                      fields_.front().starts_with('#') ? "comments stand above the header" : "write one for each column"));
 }
 
-int CsvReader::line() const { return std::max(number_, 1); }
-
 std::string CsvReader::where() const { return fmt::format("{}:{}", name_, line()); }
 
 void CsvReader::fail(std::string_view message) const { throw SceneError(fmt::format("{}: {}", where(), message)); }

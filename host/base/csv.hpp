@@ -1,6 +1,7 @@
 // Tables as text, row by row: cells between commas, semicolons or tabs; of series also between blanks.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
@@ -50,7 +51,7 @@ public:
     /// Refuses a row with more or fewer cells than the first.
     void require_columns() const;
 
-    int line() const;                                        // of the row, from 1
+    int line() const { return std::max(number_, 1); }                                        // of the row, from 1
     std::string where() const;                               // "members.csv:3"
     [[noreturn]] void fail(std::string_view message) const;  // SceneError `members.csv:3: message`
 

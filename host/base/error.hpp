@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 
 namespace slideway {
 

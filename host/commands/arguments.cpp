@@ -10,12 +10,12 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/description.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/settings.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway::cli {
 namespace {

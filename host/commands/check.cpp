@@ -5,15 +5,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/study/continued_sweep.hpp"
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/prediction.hpp"
 
 namespace slideway::cli {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
-#include "host/base/memory_room.hpp"
+#include "host/base/process.hpp"
 #include "host/chaos/divergence.hpp"
 #include "host/config/scene.hpp"
 #include "host/study/backend_choice.hpp"

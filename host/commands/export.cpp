@@ -9,7 +9,7 @@
 #include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
-#include "host/study/result_tables.hpp"
+#include "host/study/result_summary.hpp"
 
 namespace slideway::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include "host/commands/description.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/key_reference.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway::cli {
 namespace {

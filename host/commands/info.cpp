@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"

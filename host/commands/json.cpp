@@ -1,4 +1,4 @@
-#include "host/commands/json.hpp"
+#include "host/commands/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/numbers.hpp"
-#include "host/commands/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/store/result_seal.hpp"
-#include "host/study/explanation.hpp"
-#include "host/study/orbit_summary.hpp"
+#include "host/study/probe.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/start.hpp"
@@ -106,17 +104,13 @@ Json of_columns(ResultReader const& results) {
     return list;
 }
 
-Json of_estimate(double value, Interval const& interval) {
-    return {{"value", number(value)}, {"low", number(interval.low)}, {"high", number(interval.high)}};
-}
+Json of_estimate(Estimate const& one) { return {{"value", number(one.value)}, {"low", number(one.interval.low)}, {"high", number(one.interval.high)}}; }
 
 Json of_yield(std::string const& name, Limit const& limit, std::string const& unit, Proportion const& met) {
     Json json{{"name", name}, {"unit", unit}, {"min", number(limit.low)}, {"max", number(limit.high)}, {"met", met.successes}, {"of", met.trials}};
-    json.update(of_estimate(met.value, met.interval));
+    json.update(of_estimate(met));
     return json;
 }
-
-Json of_estimate(IndexEstimate const& index) { return of_estimate(index.value, index.interval); }
 
 /// A column's name, why it has no sensitivities (or null), and what there is of each input.
 template <class Column, class OfInput> Json of_inputs(ToleranceReport const& report, Column const& column, OfInput of_input) {
@@ -139,7 +133,7 @@ Json of_sensitivity(ToleranceReport const& report) {
     }
     for (ColumnCorrelations const& column : report.correlations) {
         list.push_back(of_inputs(report, column, [&](Json& input, std::size_t i) {
-            input["rank_correlation"] = of_estimate(column.ranks[i].value, column.ranks[i].interval);
+            input["rank_correlation"] = of_estimate(column.ranks[i]);
             input["regression"] = number(column.regression.coefficients[i]);
         }));
         list.back()["r_squared"] = number(column.regression.r_squared);
@@ -155,10 +149,10 @@ Json of_report(ToleranceReport const& report) {
     json["sensitivity"] = of_sensitivity(report);
     for (ColumnStatistics const& entry : report.columns) {
         Json one{{"name", entry.column.name()}, {"unit", entry.column.unit}, {"count", entry.summary.count}};
-        one["mean"] = of_estimate(entry.summary.mean, entry.mean);
+        one["mean"] = of_estimate({entry.summary.mean, entry.mean});
         for (QuantileEstimate const& quantile : entry.quantiles) {
             one["quantiles"].push_back({{"probability", quantile.p}});
-            one["quantiles"].back().update(of_estimate(quantile.value, quantile.interval));
+            one["quantiles"].back().update(of_estimate(quantile));
         }
         json["quantities"].push_back(std::move(one));
     }
@@ -287,21 +281,21 @@ std::string check_json(Scene const& scene, Prediction const& prediction, std::op
     return text_of(json);
 }
 
-std::string probe_json(ProbedStates const& probed) {
+std::string probe_json(std::string const& path, StateTable const& table, std::vector<ProbeResult> const& results, std::optional<StoredState> const& stored,
+                       bool explained) {
     Json json = object("probe");
-    StateTable const& table = probed.table;
-    json["scene"] = probed.path;
-    if (probed.stored) json["member"] = probed.stored->member, json["stored"] = probed.stored->of;
+    json["scene"] = path;
+    if (stored) json["member"] = stored->member, json["stored"] = stored->of;
     Json& rows = json["states"] = Json::array();
-    for (std::size_t row = 0; row < probed.results.size(); ++row) {
-        ProbeResult const& result = probed.results[row];
+    for (std::size_t row = 0; row < results.size(); ++row) {
+        ProbeResult const& result = results[row];
         Json one{{"time", table.times[row]}, {"status", name_of(result.status)}};
         MechanismInfo const& has = info(table.mechanism);
         StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
         for (int i = 0; i < has.states; ++i) one["state"][state_info(has, i).name] = number(state[static_cast<std::size_t>(i)]);
         for (auto const& [name, value] : result_columns(table, result)) one["values"][name] = number(value);
         for (auto const& [name, value] : force_columns(has, result)) one["forces"][name] = number(value);
-        if (probed.explained) one["explanation"] = of_explanation(explain(table, row, result), table.parts[row]);
+        if (explained) one["explanation"] = of_explanation(explain(table, row, result), table.parts[row]);
         rows.push_back(std::move(one));
     }
     return text_of(json);

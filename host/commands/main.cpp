@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "host/backend/kernel_modules.hpp"
-#include "host/base/memory_room.hpp"
+#include "host/base/process.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
 

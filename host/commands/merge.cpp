@@ -5,14 +5,12 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
-#include "host/base/memory_room.hpp"
+#include "host/base/process.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
-#include "host/store/finished_result.hpp"
 #include "host/store/result_merge.hpp"
-#include "host/store/shard_claim.hpp"
 #include "host/store/result_view.hpp"
+#include "host/store/shard_claim.hpp"
 #include "host/study/admission.hpp"
 #include "host/study/study_run.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 
 namespace slideway::cli {
 

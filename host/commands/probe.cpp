@@ -1,4 +1,4 @@
-#include "host/study/explanation.hpp"
+#include "host/study/probe.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -11,12 +11,11 @@
 #include "host/base/error.hpp"
 #include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/store/output_target.hpp"
 #include "host/study/series_file.hpp"
-#include "host/study/stored_state.hpp"
+#include "host/study/state_table.hpp"
 #include "host/study/study_run.hpp"
 #include "kernels/members/start.hpp"
 
@@ -210,7 +209,7 @@ int execute(ProbeArguments const& arguments) {
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
     if (target) target->write(probed_text(table, results));
     if (arguments.json) {
-        print_out("{}", probe_json({scene.path, table, results, probed.stored, arguments.explain}));
+        print_out("{}", probe_json(scene.path, table, results, probed.stored, arguments.explain));
     } else if (target) {
         return exit_code::done;
     } else if (!arguments.table.empty() && !arguments.explain) {

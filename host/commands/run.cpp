@@ -6,9 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "host/base/bytes.hpp"
-#include "host/base/memory_room.hpp"
+#include "host/base/process.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/run/rank_messages.hpp"
 #include "host/study/continued_sweep.hpp"

@@ -8,8 +8,8 @@
 
 #include "host/config/descriptors.hpp"
 #include "host/store/run_identity.hpp"
-#include "host/study/noise_floor.hpp"
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/ensemble_plan.hpp"
+#include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway::cli {

@@ -8,7 +8,6 @@
 #include "host/base/error.hpp"
 #include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
-#include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/result_view.hpp"

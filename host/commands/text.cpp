@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 #include "host/config/descriptors.hpp"
 
 namespace slideway::cli {

@@ -15,54 +15,54 @@ using enum LoadKind;
 using enum Rule;
 
 /// Where a load has the place of a number.
-template <auto member> int& at(Load& load) { return load.*member; }
-template <auto member, int i> int& at(Load& load) { return (load.*member)[i]; }
+template <auto member> int& of_load(Load& load) { return load.*member; }
+template <auto member, int i> int& of_load(Load& load) { return (load.*member)[i]; }
 
 constexpr LoadNumber numbers[] = {
-    {push, "force_x", "N", "force along X", at<&Load::force, 0>},
-    {push, "force_y", "N", "force along Y", at<&Load::force, 1>},
-    {push, "force_z", "N", "force along Z", at<&Load::force, 2>, any, 0, false},
-    {push, "torque_x", "N m", "torque about X", at<&Load::torque, 0>, any, 0, false},
-    {push, "torque_y", "N m", "torque about Y", at<&Load::torque, 1>, any, 0, false},
-    {push, "torque_z", "N m", "torque about Z", at<&Load::torque, 2>},
-    {push, "point_x", "m", "where the force acts, along the slider's X from its centre", at<&Load::point, 0>},
-    {push, "point_y", "m", "where the force acts, along the slider's Y", at<&Load::point, 1>},
-    {push, "point_z", "m", "where the force acts, along the slider's Z", at<&Load::point, 2>, any, 0, false},
-    {push, "torque", "N m", "torque on the crank", at<&Load::crank_torque>, any, 0, true, true, false},
-    {push, "scale", "1", "what force and torque are multiplied by", at<&Load::scale>, any, 1, true, true},
+    {push, "force_x", "N", "force along X", of_load<&Load::force, 0>},
+    {push, "force_y", "N", "force along Y", of_load<&Load::force, 1>},
+    {push, "force_z", "N", "force along Z", of_load<&Load::force, 2>, any, 0, false},
+    {push, "torque_x", "N m", "torque about X", of_load<&Load::torque, 0>, any, 0, false},
+    {push, "torque_y", "N m", "torque about Y", of_load<&Load::torque, 1>, any, 0, false},
+    {push, "torque_z", "N m", "torque about Z", of_load<&Load::torque, 2>},
+    {push, "point_x", "m", "where the force acts, along the slider's X from its centre", of_load<&Load::point, 0>},
+    {push, "point_y", "m", "where the force acts, along the slider's Y", of_load<&Load::point, 1>},
+    {push, "point_z", "m", "where the force acts, along the slider's Z", of_load<&Load::point, 2>, any, 0, false},
+    {push, "torque", "N m", "torque on the crank", of_load<&Load::crank_torque>, any, 0, true, true, false},
+    {push, "scale", "1", "what force and torque are multiplied by", of_load<&Load::scale>, any, 1, true, true},
 
-    {spring, "anchor_x", "m", "where the spring is held on the ground, along X", at<&Load::anchor, 0>},
-    {spring, "anchor_y", "m", "where the spring is held on the ground, along Y", at<&Load::anchor, 1>},
-    {spring, "anchor_z", "m", "where the spring is held on the ground, along Z", at<&Load::anchor, 2>, any, 0, false},
-    {spring, "point_x", "m", "where the slider holds the spring, along the slider's X from its centre", at<&Load::point, 0>},
-    {spring, "point_y", "m", "where the slider holds the spring, along the slider's Y", at<&Load::point, 1>},
-    {spring, "point_z", "m", "where the slider holds the spring, along the slider's Z", at<&Load::point, 2>, any, 0, false},
-    {spring, "stiffness", "N/m", "stiffness of the spring", at<&Load::stiffness>, not_negative},
-    {spring, "damping", "N s/m", "damping of the spring", at<&Load::damping>, not_negative},
-    {spring, "rest_length", "m", "length at which the tension is the preload", at<&Load::rest_length>},
-    {spring, "preload", "N", "tension at the rest length", at<&Load::preload>},
+    {spring, "anchor_x", "m", "where the spring is held on the ground, along X", of_load<&Load::anchor, 0>},
+    {spring, "anchor_y", "m", "where the spring is held on the ground, along Y", of_load<&Load::anchor, 1>},
+    {spring, "anchor_z", "m", "where the spring is held on the ground, along Z", of_load<&Load::anchor, 2>, any, 0, false},
+    {spring, "point_x", "m", "where the slider holds the spring, along the slider's X from its centre", of_load<&Load::point, 0>},
+    {spring, "point_y", "m", "where the slider holds the spring, along the slider's Y", of_load<&Load::point, 1>},
+    {spring, "point_z", "m", "where the slider holds the spring, along the slider's Z", of_load<&Load::point, 2>, any, 0, false},
+    {spring, "stiffness", "N/m", "stiffness of the spring", of_load<&Load::stiffness>, not_negative},
+    {spring, "damping", "N s/m", "damping of the spring", of_load<&Load::damping>, not_negative},
+    {spring, "rest_length", "m", "length at which the tension is the preload", of_load<&Load::rest_length>},
+    {spring, "preload", "N", "tension at the rest length", of_load<&Load::preload>},
 
-    {stop, "position", "m", "x at which the slider's point touches the stop", at<&Load::anchor, 0>},
-    {stop, "point_x", "m", "the slider's point that touches, along the slider's X from its centre", at<&Load::point, 0>},
-    {stop, "point_y", "m", "the slider's point that touches, along the slider's Y", at<&Load::point, 1>},
-    {stop, "point_z", "m", "the slider's point that touches, along the slider's Z", at<&Load::point, 2>, any, 0, false},
-    {stop, "stiffness", "N/m", "stiffness of the stop", at<&Load::stiffness>, positive},
-    {stop, "damping", "N s/m", "damping of the stop", at<&Load::damping>, not_negative},
-    {stop, "dissipation", "s/m", "a speed into the stop multiplies the force of its stiffness by 1 + this times the speed", at<&Load::dissipation>, not_negative},
+    {stop, "position", "m", "x at which the slider's point touches the stop", of_load<&Load::anchor, 0>},
+    {stop, "point_x", "m", "the slider's point that touches, along the slider's X from its centre", of_load<&Load::point, 0>},
+    {stop, "point_y", "m", "the slider's point that touches, along the slider's Y", of_load<&Load::point, 1>},
+    {stop, "point_z", "m", "the slider's point that touches, along the slider's Z", of_load<&Load::point, 2>, any, 0, false},
+    {stop, "stiffness", "N/m", "stiffness of the stop", of_load<&Load::stiffness>, positive},
+    {stop, "damping", "N s/m", "damping of the stop", of_load<&Load::damping>, not_negative},
+    {stop, "dissipation", "s/m", "a speed into the stop multiplies the force of its stiffness by 1 + this times the speed", of_load<&Load::dissipation>, not_negative},
 
-    {ground_motion, "scale_x", "1", "what the ground's acceleration along X is multiplied by", at<&Load::force, 0>, any, 1},
-    {ground_motion, "scale_y", "1", "what the ground's acceleration along Y is multiplied by", at<&Load::force, 1>, any, 1},
-    {ground_motion, "scale_z", "1", "what the ground's acceleration along Z is multiplied by", at<&Load::force, 2>, any, 1, false},
+    {ground_motion, "scale_x", "1", "what the ground's acceleration along X is multiplied by", of_load<&Load::force, 0>, any, 1},
+    {ground_motion, "scale_y", "1", "what the ground's acceleration along Y is multiplied by", of_load<&Load::force, 1>, any, 1},
+    {ground_motion, "scale_z", "1", "what the ground's acceleration along Z is multiplied by", of_load<&Load::force, 2>, any, 1, false},
 
-    {way_profile, "scale", "1", "what the depth of the table is multiplied by", at<&Load::scale>, not_negative, 1, false},
+    {way_profile, "scale", "1", "what the depth of the table is multiplied by", of_load<&Load::scale>, not_negative, 1, false},
 
-    {way_ends, "from", "m", "x at which the way begins", at<&Load::from>, any, 0, false},
-    {way_ends, "to", "m", "x at which the way ends", at<&Load::to>, any, 0, false},
+    {way_ends, "from", "m", "x at which the way begins", of_load<&Load::from>, any, 0, false},
+    {way_ends, "to", "m", "x at which the way ends", of_load<&Load::to>, any, 0, false},
 
-    {film, "viscosity", "Pa s", "dynamic viscosity of the lubricant between slider and way", at<&Load::viscosity>, positive, 0, false},
-    {film, "least_gap", "m", "mean gap of a face below which its film becomes no thinner: roughness", at<&Load::least_gap>, positive, 0, false},
+    {film, "viscosity", "Pa s", "dynamic viscosity of the lubricant between slider and way", of_load<&Load::viscosity>, positive, 0, false},
+    {film, "least_gap", "m", "mean gap of a face below which its film becomes no thinner: roughness", of_load<&Load::least_gap>, positive, 0, false},
     {film, "cavitation_pressure", "Pa", "how far the film's pressure falls below the ambient one before it breaks; 0: it never pulls",
-     at<&Load::cavitation_pressure>, not_negative, 0, false},
+     of_load<&Load::cavitation_pressure>, not_negative, 0, false},
 };
 
 using Type = Setting::Type;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "host/config/descriptors.hpp"
-#include "host/config/former_names.hpp"
 #include "host/config/keys.hpp"
 #include "host/config/units.hpp"
 

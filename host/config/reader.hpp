@@ -10,13 +10,60 @@
 #include <vector>
 
 #include "host/config/document.hpp"
-#include "host/config/rules.hpp"
 #include "host/config/scene.hpp"
 #include "host/config/settings.hpp"
 
 namespace slideway {
 
 class CsvReader;
+struct Reading;
+
+// What keys of a scene ask of one another: a table beside that of the keys, which the reader walks as it gets to know the scene.
+
+/// What of a scene is read when a rule is looked at, one after the other.
+enum class Known {
+    mechanism,
+    contacts,
+    variation,   // a key that varies: of its rules alone
+    study_kind,
+    members,     // how they are spread
+    orbits,      // their lengths of time
+    study,       // all of [study]
+    method,      // on which contacts
+    integrator,  // all of [integrator]
+    all
+};
+
+struct KeyRule {
+    enum class What {
+        excludes,  // refused where it is given: "contact.eta is 0.1 (contact.restitution replaces it); remove one of the two"
+        foreign,   // the same of what the mechanism has not: "way has no meaning for kind = "free_slider"; remove it"
+        cannot,    // refused given or not: "study.phase is not given (…); give study.section"
+        needs,     // refused where it is not given: "study.base is missing (…); add base = 256"
+        idle,      // a warning where it is given: "study.levels has no effect with design "mc""
+        warns      // a warning, whether or not it is given: "why; instead"
+    };
+    Known after;
+    std::string_view key;  // dotted
+    bool (*when)(Reading const& reading);
+    What what;
+    std::string_view why = {}, instead = {};     // "{mechanism}", "{law}" … stand for the scene's (rules.cpp)
+    std::string_view asking = "study.kind";  // of `needs`: where the message points
+};
+
+using KeyRules = std::span<KeyRule const>;
+KeyRules key_rules();
+
+/// The scene of a text, by other tables than its own (scene.hpp).
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides, Settings rows, KeyRules rules, Scene const* former = nullptr);
+
+/// Does what the rules of a stage say.  @throws SceneError
+void apply_rules(Reading& reading, Known known);
+/// Of a key that varies: refuses it at `node`, where a rule excludes it.
+void apply_rules(Reading const& reading, Key const& varied, Node const& node);
+
+/// Methods that there are for a mechanism with its contacts: those that no rule excludes.
+MethodSet methods_of(Parts const& parts);
 
 /// A document on its way to a scene, by the tables of keys and of their rules.
 struct Reading {
@@ -70,20 +117,14 @@ void warn_of_idle_sources(Reading& reading);
 void read_variations(Reading& reading);
 /// The entries of [study.vary], in the order of Scene::variations.
 std::vector<Node const*> varied_nodes(Node const& root);
-/// The dotted key of one.
-std::string_view varied_name(Node const& node);
 /// Which study, of how many members, and what it is asked for; adds the kernel parts that a swept key needs.
 void read_study(Reading& reading);
 /// How the members are spread: Scene::design, and how many members follow from it; needs the study and what varies.
 void read_design(Reading& reading);
 /// study.table: Scene::design.table and a variation for each of its columns.
 void read_member_table(Reading& reading, Node const& node);
-/// [study.limits]; adds their quantities to those asked for.
-void read_limits(Reading& reading);
 /// The keys of a study of orbits: Scene::chaos.
 void read_orbits(Reading& reading);
-/// study.section: where a poincare study takes its states.
-void read_section(Node const& table, Scene& scene);
 /// What a sweep sweeps, through which values.
 void read_sweep(Reading& reading);
 /// [integrator]; needs the period of the drive and the study.
@@ -129,9 +170,6 @@ double fastest_period(Scene const& scene);
 /// The least reversal_time that members of a carriage may have [s], > 0.
 double shortest_reversal(Scene const& scene);
 
-/// Why the scene's members do not have a quantity of their mechanism, where it is so.
-std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene);
-
 /// Most numbers of one kind in a result file, 80 GB.
 inline constexpr double most_values = 1e10;
 
@@ -143,12 +181,8 @@ inline constexpr double most_values = 1e10;
 [[noreturn]] void refuse_replaced(Node const& node, Key const& key, Parts const& parts);
 /// A key that the scene's law does not know.
 [[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
-/// A quantity or a series that the scene's mechanism does not have.
-[[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
 /// What `node` gives, or the study whose default it is; `key` is the dotted name.
 [[noreturn]] void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem);
-/// What is counted by revolutions where nothing turns.  @param instead key that says it in seconds
-[[noreturn]] void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead);
 /// A node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);
 /// What asks for a key that is not there: "study.points is missing (how many columns there are); add points = 50".

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "host/config/drive.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 #include "kernels/members/complete_inputs.hpp"

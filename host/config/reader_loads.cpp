@@ -14,7 +14,7 @@
 #include "host/backend/own_modules.hpp"
 #include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/units.hpp"

@@ -1,13 +1,82 @@
 // The keys of a study of orbits: for how long, what of them is recorded, and how neighbours go along.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "host/base/numbers.hpp"
+#include "host/base/text.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
 namespace {
+
+constexpr int apices = 8;
+
+/// Names of what a section may be taken of: states, gaps, and at last impacts.
+std::vector<std::string> surface_names(MechanismInfo const& mechanism) {
+    std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(mechanism.states) + 2 * std::size_t{apices} + 1);
+    for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_info(mechanism, i).name);
+    for (char const* const face : {"gap_y", "gap_z"}) {
+        for (int apex = 1; mechanism.spatial && apex <= apices; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
+    }
+    names.emplace_back(impacts_name);
+    return names;
+}
+
+/// Of compliant contacts an impact lasts, and a gap at a small level tells its beginning and its end.
+void check_impacts(Node const& on, Node const* value, Parts const& parts) {
+    if (!parts.rigid) {
+        std::string_view const gap = info(parts.mechanism).spatial ? "on = \"gap_y[P1]\" with value = \"1 nm\", " : "";
+        refuse(on, {"impacts of compliant contacts last", fmt::format("use {}the quantity contact_onsets, or contact.law = \"rigid\"", gap)});
+    }
+    if (value != nullptr) refuse(*value, {"an impact has no level", "remove it"});
+}
+
+/// Place of what crosses the section among `surface_names`.
+int read_surface(Node const& on, MechanismInfo const& mechanism) {
+    std::string const& name = read_text_value(on);
+    auto const known = surface_names(mechanism);
+    auto const found = std::ranges::find(known, name);
+    if (found != known.end()) return static_cast<int>(found - known.begin());
+    std::string_view const near = nearest_name(name, std::vector<std::string_view>(known.begin(), known.end()));
+    auto const states = std::span(known).first(static_cast<std::size_t>(mechanism.states));
+    std::string_view const gaps = mechanism.spatial ? ", gap_y[P1] to gap_y[P8], gap_z[P1] to gap_z[P8]" : "";
+    refuse(on, {mechanism.spatial ? "neither a state nor a gap" : "no state of it",
+                near.empty() ? fmt::format("use one of {}{}", fmt::join(states, ", "), gaps)
+                             : fmt::format("did you mean \"{}\"?", near)});
+}
+
+/// study.section: where a poincare study takes its states.
+void read_section(Node const& table, Scene& scene) {
+    using On = SectionSurface::On;
+    SectionSurface& section = scene.chaos.section;
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    std::string const example = "write for example { on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
+    if (!table.is_table()) refuse(table, {"not a section", example});
+    check_arguments(table, "section", {"on", "value", "direction"});
+    Node const *const on = table.find("on"), *const value = table.find("value"), *const direction = table.find("direction");
+    if (on == nullptr) refuse_that(table, "has no on", {"what crosses the section", example});
+    int const index = read_surface(*on, mechanism), states = mechanism.states;
+    if (on->text == impacts_name) {
+        check_impacts(*on, value, scene.parts);
+        section.on = On::impacts;
+        section.direction = CrossingDirection::both;
+    } else {
+        section.on = index < states ? On::state : index < states + apices ? On::gap_y : On::gap_z;
+        section.index = index < states ? index : (index - states) % apices;
+        if (value != nullptr) section.level = read_number(*value, section_unit(section, scene.parts.mechanism));
+    }
+    // A crank may turn either way.
+    if (section.on == On::state && mechanism.state[section.index] == Series::crank_angle) section.direction = CrossingDirection::both;
+    if (direction != nullptr) section.direction = static_cast<CrossingDirection>(read_choice(*direction, "direction", crossing_direction_names));
+}
 
 constexpr double most_numbers = 1e7;  // of one member, which keeps them in memory while it runs
 
@@ -108,6 +177,14 @@ void check_memory(Reading const& reading) {
 
 }  // namespace
 
+std::string_view section_unit(SectionSurface const& section, Mechanism mechanism) {
+    if (section.is_phase()) return "rad";
+    if (section.on != SectionSurface::On::state) return "m";
+    SeriesInfo const& state = state_info(info(mechanism), section.index);
+    Key const* const key = find_key(fmt::format("initial.{}", state.name));
+    return key != nullptr ? key->unit : state.unit;
+}
+
 RunLength run_length(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     auto const at = [&](double period) { return chaos.transient.seconds(period) + chaos.span.seconds(period); };
@@ -134,6 +211,78 @@ void read_orbits(Reading& reading) {
     check_length(reading);
     if (lyapunov) read_history(reading);
     check_memory(reading);
+}
+
+namespace {
+
+/// To 15 digits: the column at 0.1 mm then has the bits of a scene that says so.
+double rounded(double value) { return parse_number<double>(fmt::format("{:.14e}", value)).value_or(value); }
+
+std::vector<double> read_range(Reading const& reading, Key const& key) {
+    Node const &first = *reading.given("study.from"), &last = *reading.given("study.to");
+    double const from = read_number(first, key), to = read_number(last, key);
+    std::uint64_t const points = read_count(*reading.given("study.points"), setting("study.points"));
+    if (from == to) refuse(last, with_unit(to, key.unit), {"equal to study.from", "use another value, or study.values"});
+    Node const* const spacing = reading.given("study.spacing");
+    bool const logarithmic = spacing != nullptr && read_choice(*spacing, setting("study.spacing")) == 1;
+    if (logarithmic && !(from * to > 0)) {
+        refuse(*spacing, {fmt::format("from {} to {} there is no common ratio", with_unit(from, key.unit), with_unit(to, key.unit)),
+                          "use ends of one sign, or \"linear\""});
+    }
+    std::vector<double> values(points);
+    for (std::uint64_t i = 0; i < points; ++i) {
+        double const part = static_cast<double>(i) / static_cast<double>(points - 1);
+        values[i] = rounded(logarithmic ? from * std::pow(to / from, part) : from + (to - from) * part);
+    }
+    values.front() = from;
+    values.back() = to;
+    return values;
+}
+
+/// Why a column cannot be run, if it is so.
+std::optional<Problem> broken_column(Inputs inputs, Parts const& parts, Key const& key, double value) {
+    key.set(inputs, value);
+    if (key.name == "mechanism.crank_speed" && value == 0) return Problem{"a crank at rest comes to no section", "leave the value out"};
+    auto const found = find_defect(inputs, parts);
+    if (!found) return std::nullopt;
+    return Problem{fmt::format("{} would be {}: {}", found->key->name, with_unit(found->value, found->key->unit), found->problem.reason),
+                   found->problem.advice};
+}
+
+void check_values(Reading const& reading) {
+    Scene const& scene = reading.scene;
+    Key const& key = *scene.chaos.parameter;
+    auto const& values = scene.chaos.values;
+    Node const* const list = reading.given("study.values");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        auto const problem = broken_column(scene.inputs, scene.parts, key, values[i]);
+        if (!problem) continue;
+        std::string const shown = with_unit(values[i], key.unit);
+        if (list != nullptr) refuse(list->children[i], shown, *problem);
+        if (i == 0) refuse(*reading.given("study.from"), shown, *problem);
+        if (i + 1 == values.size()) refuse(*reading.given("study.to"), shown, *problem);
+        // An end that is wrong too says so first.
+        if (auto const at_end = broken_column(scene.inputs, scene.parts, key, values.back()))
+            refuse(*reading.given("study.to"), with_unit(values.back(), key.unit), *at_end);
+        refuse(*reading.given("study.points"), {fmt::format("one is {}: {}", shown, problem->reason), "use study.values, or other limits"});
+    }
+}
+
+}  // namespace
+
+void read_sweep(Reading& reading) {
+    Scene& scene = reading.scene;
+    Node const& parameter = *reading.given("study.parameter");
+    std::string const& name = read_text_value(parameter);
+    Key const* const key = find_key(name, scene);
+    if (key == nullptr) refuse_ungiven(parameter.where, name, scene);
+    if (key == nullptr) refuse(parameter, {"only numeric keys of the physics can be swept", key_advice(name, scene)});
+    check_varied(reading, parameter, *key, {"the sweep sets it in every column, so this has no effect", "use --set 'study.values=[...]'"});
+    Node const* const list = reading.given("study.values");
+    scene.chaos.parameter = key;
+    scene.chaos.values = list != nullptr ? read_list(*list, *key, setting("study.points").most, "[\"0.1 mm\", \"0.2 mm\"]") : read_range(reading, *key);
+    require_part(scene.parts, *key);
+    check_values(reading);
 }
 
 }  // namespace slideway

@@ -9,7 +9,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/backend/own_modules.hpp"
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 

@@ -8,11 +8,10 @@
 
 #include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
-#include "host/base/suggest.hpp"
 #include "host/base/open_file.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
+#include "host/config/document.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/scene_text.hpp"
 #include "host/config/units.hpp"
 
 namespace slideway {

@@ -8,10 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "host/config/drive.hpp"
+#include "host/config/document.hpp"
 #include "host/config/loads.hpp"
-#include "host/config/resolved.hpp"
-#include "host/config/scene_text.hpp"
 
 namespace slideway {
 namespace {

@@ -7,14 +7,14 @@
 #include <fmt/format.h>
 
 #include "host/backend/backend.hpp"
+#include "host/config/document.hpp"
 #include "host/config/scene.hpp"
-#include "host/config/scene_text.hpp"
 #include "host/library/state.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/store/memory_file.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/admission.hpp"

@@ -53,8 +53,6 @@ MemberSet MemberSet::without(MemberSet const& other) const {
     return rest;
 }
 
-MemberSet MemberSet::common(MemberSet const& other) const { return without(without(other)); }
-
 std::uint64_t MemberSet::count() const {
     std::uint64_t sum = 0;
     for (MemberRange const& range : ranges_) sum += range.count;

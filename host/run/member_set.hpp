@@ -28,7 +28,7 @@ public:
     void add(MemberRange range);
     void add(MemberSet const& other);
     MemberSet without(MemberSet const& other) const;
-    MemberSet common(MemberSet const& other) const;
+    MemberSet common(MemberSet const& other) const { return without(without(other)); }
 
     bool empty() const { return ranges_.empty(); }
     std::uint64_t count() const;

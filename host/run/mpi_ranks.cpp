@@ -2,22 +2,145 @@
 // {wanted, finished, what}, the answer {first, count, left}.  Its own workers take from the same queue without MPI.
 #include "host/run/ranks.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cstdlib>
 #include <exception>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
+// The C interface: the C++ one left the standard in 2012.
+#ifndef OMPI_SKIP_MPICXX
+#define OMPI_SKIP_MPICXX 1
+#endif
+#ifndef MPICH_SKIP_MPICXX
+#define MPICH_SKIP_MPICXX 1
+#endif
+#include <mpi.h>
+
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
-#include "host/run/mpi_calls.hpp"
 #include "host/run/rank_messages.hpp"
 
 namespace slideway {
 namespace {
 
 using namespace std::chrono_literals;
+
+// ---- the calls of MPI that slideway needs, each of which returns at once or sleeps between its questions ----
+
+/// How long to sleep between two questions whether something has come: longer and longer while nothing does.
+class Backoff {
+public:
+    using Duration = std::chrono::microseconds;
+    constexpr explicit Backoff(Duration longest) : longest_(longest) {}
+    void sleep() {
+        std::this_thread::sleep_for(pause_);
+        pause_ = std::min(2 * pause_, longest_);
+    }
+    void refresh() { pause_ = first; }
+
+private:
+    static constexpr Duration first{200};
+    Duration const longest_;
+    Duration pause_ = first;
+};
+
+/// MPI of this process, from construction to destruction.  Any thread may call: one mutex makes the calls one after the
+/// other, and is held for no longer than a call of MPI that cannot block.  What MPI itself finds wrong ends the job with
+/// MPI's own message.
+class MpiCalls {
+public:
+    /// @throws SceneError if MPI allows calls by its main thread only.
+    MpiCalls() {
+        int provided = MPI_THREAD_SINGLE;
+        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+        if (provided < MPI_THREAD_SERIALIZED) {
+            MPI_Finalize();
+            throw SceneError(
+                "slideway: this MPI lets only one thread make calls (MPI_THREAD_SERIALIZED is needed); use another MPI, or "
+                "--shard");
+        }
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+        MPI_Comm_size(MPI_COMM_WORLD, &count_);
+        // All processes start with this, and none has work yet: here they may wait for each other.
+        MPI_Comm machine = MPI_COMM_NULL;
+        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+        MPI_Comm_rank(machine, &local_rank_);
+        MPI_Comm_size(machine, &local_count_);
+        MPI_Comm_free(&machine);
+    }
+    ~MpiCalls() {
+        if (says_goodbye_) MPI_Finalize();
+    }
+    MpiCalls(MpiCalls const&) = delete;
+    MpiCalls& operator=(MpiCalls const&) = delete;
+
+    int rank() const { return rank_; }
+    int count() const { return count_; }
+    // Among the processes of this machine.
+    int local_rank() const { return local_rank_; }
+    int local_count() const { return local_count_; }
+
+    /// Returns when `data` may be overwritten; that is not before the other has asked for it, if it is large.
+    void send(int to, int tag, void const* data, std::size_t bytes, Backoff backoff) {
+        finish([&](MPI_Request* request) { MPI_Isend(data, static_cast<int>(bytes), MPI_BYTE, to, tag, MPI_COMM_WORLD, request); }, backoff);
+    }
+    /// Waits for a message of this size.
+    void receive(int from, int tag, void* data, std::size_t bytes, Backoff backoff) {
+        finish([&](MPI_Request* request) { MPI_Irecv(data, static_cast<int>(bytes), MPI_BYTE, from, tag, MPI_COMM_WORLD, request); }, backoff);
+    }
+    /// The rank of any whose message with this tag waits to be received.
+    std::optional<int> waiting(int tag) {
+        int found = 0;
+        MPI_Status status;
+        std::lock_guard const lock(mutex_);
+        MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &found, &status);
+        return found != 0 ? std::optional(status.MPI_SOURCE) : std::nullopt;
+    }
+    /// Rank 0's `data`, at every rank.
+    void broadcast(void* data, std::size_t bytes, Backoff backoff) {
+        finish([&](MPI_Request* request) { MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, request); }, backoff);
+    }
+
+    /// The others may wait for a message that this process no longer sends.  It then ends without ending MPI, by which
+    /// its launcher knows that it failed, and ends them.
+    void leave_without_goodbye() { says_goodbye_ = false; }
+
+    /// Ends all processes of the job, whatever they do and whichever launcher started them.
+    [[noreturn]] void abort(int code) {
+        std::lock_guard const lock(mutex_);
+        MPI_Abort(MPI_COMM_WORLD, code);
+        std::_Exit(code);
+    }
+
+private:
+    template <class Start> void finish(Start start, Backoff backoff) {
+        MPI_Request request = MPI_REQUEST_NULL;
+        int done = 0;
+        {
+            std::lock_guard const lock(mutex_);
+            start(&request);
+            MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        }
+        while (done == 0) {
+            backoff.sleep();
+            std::lock_guard const lock(mutex_);
+            MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        }
+    }
+
+    std::mutex mutex_;
+    int rank_ = 0, count_ = 1, local_rank_ = 0, local_count_ = 1;
+    bool says_goodbye_ = true;
+};
+
+// ---- ranks ----
 
 struct Answer {
     std::uint64_t first = 0, count = 0, left = 0;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/run/ensemble_totals.hpp"
+#include "host/run/ensemble.hpp"
 #include "host/run/member_set.hpp"
 
 namespace slideway {

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <iterator>
 
-#include "host/base/stop_signals.hpp"
+#include "host/base/process.hpp"
 
 namespace slideway {
 
@@ -30,6 +30,9 @@ private:
     Clock::time_point deadline_ = Clock::time_point::max();
     static_assert(std::atomic<bool>::is_always_lock_free);
 };
+
+/// Of who asks for nothing.
+inline StopRequest const never_stops;
 
 /// While it lives, each of `stop_signals` becomes a request, but for those that are ignored already; a second one ends the process as usual,
 /// where its senders do not repeat it.  At most one at a time.

@@ -1,9 +1,11 @@
 // How the members of a study are spread over the ranges of what varies.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,7 +47,7 @@ struct MemberTable {
 
 /// Correlated variations: a normal copula.  x_i = Q_i(Φ(z_i)), z normal with this correlation matrix; for normal
 /// marginals the matrix is that of the values themselves.  Of a Latin hypercube the strata of each variation stay and
-/// change their order (`correlate_orders`).
+/// change their order.
 struct Correlation {
     std::vector<std::size_t> variations;  // indices into those of the scene
     std::vector<double> matrix;           // [n][n], symmetric, positive definite, ones on the diagonal
@@ -102,5 +104,14 @@ private:
     struct Plan;
     std::shared_ptr<Plan const> plan_;
 };
+
+/// Why a matrix is no correlation matrix, and what to do; nothing if it is one: |r| <= 1, ones on the diagonal,
+/// symmetric, positive definite.  Rows and columns are counted from 1 in the text, "row 1, column 2 is 1.5 (…); …".
+/// @param matrix [n][n].
+std::optional<std::string> matrix_defect(std::span<double const> matrix, std::size_t n);
+
+/// Lower triangular L with L Lᵀ = matrix, [n][n] with zeros above the diagonal.
+/// @throws SceneError with the defect of a matrix that is no correlation matrix.
+std::vector<double> cholesky_factor(std::span<double const> matrix, std::size_t n);
 
 }  // namespace slideway

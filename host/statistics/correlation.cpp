@@ -67,7 +67,7 @@ Interval rank_correlation_interval(double r, std::size_t n, double level) {
     return {std::tanh(std::atanh(r) - half), std::tanh(std::atanh(r) + half)};
 }
 
-CorrelationEstimate rank_correlation(std::span<double const> x, std::span<double const> y, double level) {
+Estimate rank_correlation(std::span<double const> x, std::span<double const> y, double level) {
     double const r = product_moment(x, y);
     return {r, rank_correlation_interval(r, x.size(), level)};
 }

@@ -12,11 +12,6 @@ namespace slideway {
 /// Ranks from 1, ties with the mean of the ranks they share (midranks).  @param values no NaN.
 std::vector<double> midranks(std::span<double const> values);
 
-struct CorrelationEstimate {
-    double value;
-    Interval interval;
-};
-
 /// Product-moment correlation Σ(x-x̄)(y-ȳ)/√(Σ(x-x̄)² Σ(y-ȳ)²).
 /// @return NaN where one of them is constant or not finite.
 double product_moment(std::span<double const> x, std::span<double const> y);
@@ -31,7 +26,7 @@ Interval rank_correlation_interval(double r, std::size_t n, double level = 0.95)
 
 /// Spearman's rank correlation: the product-moment correlation of midranks, with its interval.
 /// @param x, y [n], midranks.
-CorrelationEstimate rank_correlation(std::span<double const> x, std::span<double const> y, double level = 0.95);
+Estimate rank_correlation(std::span<double const> x, std::span<double const> y, double level = 0.95);
 
 /// Linear regression of the standardised output on the standardised inputs.
 struct StandardisedRegression {

@@ -24,17 +24,12 @@ struct BootstrapSettings {
     int threads = 1;  // at most; results do not depend on them
 };
 
-struct IndexEstimate {
-    double value;
-    Interval interval;
-};
-
 struct SobolIndices {
     std::size_t rows = 0;                     // used
     std::size_t missing = 0;                  // rows with a NaN, left out whole
     double variance;                          // of the output over A and B, with 2·rows as divisor [unit²]
-    std::vector<IndexEstimate> first, total;  // [inputs]
-    IndexEstimate first_sum;                  // of the first-order indices; 1 without interactions
+    std::vector<Estimate> first, total;  // [inputs]
+    Estimate first_sum;                  // of the first-order indices; 1 without interactions
 };
 
 /// Sobol's indices of first order S_i = V(E(f|x_i))/V and total T_i = E(V(f|x_~i))/V by

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <boost/iterator/counting_iterator.hpp>
 #include <boost/math/distributions/binomial.hpp>
@@ -63,7 +64,7 @@ Interval mean_interval(Summary const& summary, double level) {
 }
 
 Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level) {
-    Proportion result{successes, trials, nan, {0, 1}};
+    Proportion result{{nan, {0, 1}}, successes, trials};
     if (trials == 0) return result;
     auto const n = static_cast<double>(trials);
     double const p = static_cast<double>(successes) / n;
@@ -97,9 +98,55 @@ std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted,
                                                  double level) {
     std::vector<QuantileEstimate> estimates;
     for (double const p : probabilities) {
-        estimates.push_back({p, quantile(sorted, p), quantile_interval(sorted, p, level)});
+        estimates.push_back({{quantile(sorted, p), quantile_interval(sorted, p, level)}, p});
     }
     return estimates;
+}
+
+namespace {
+
+std::size_t bin_number(HistogramRange const& of) {
+    // Halves: the range of doubles is not a double.
+    double const range = 0.5 * of.largest - 0.5 * of.least;
+    double const quartiles = 0.5 * of.quartiles[1] - 0.5 * of.quartiles[0];
+    double const width = 2 * quartiles / std::cbrt(static_cast<double>(of.numbers));
+    double const bins = std::ceil(range / width);
+    return bins < static_cast<double>(most_bins) ? std::max<std::size_t>(1, static_cast<std::size_t>(bins)) : most_bins;
+}
+
+}  // namespace
+
+std::vector<double> histogram_edges(HistogramRange const& range) {
+    if (range.least == range.largest) return {range.least, range.largest};
+    std::size_t const bins = bin_number(range);
+    std::vector<double> edges;
+    for (std::size_t i = 0; i <= bins; ++i) {
+        double const share = static_cast<double>(i) / static_cast<double>(bins);
+        edges.push_back((1 - share) * range.least + share * range.largest);
+    }
+    return edges;
+}
+
+Histogram histogram(std::span<double const> sorted) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    auto const first = std::upper_bound(sorted.begin(), sorted.end(), -infinity);
+    auto const last = std::lower_bound(first, sorted.end(), infinity);
+    Histogram result;
+    result.below = static_cast<std::uint64_t>(first - sorted.begin());
+    result.above = static_cast<std::uint64_t>(sorted.end() - last);
+    std::span<double const> const finite(first, last);
+    if (finite.empty()) return result;
+    result.edges = histogram_edges(
+        {finite.front(), finite.back(), {quantile(finite, 0.25), quantile(finite, 0.75)}, finite.size()});
+    std::size_t const bins = result.edges.size() - 1;
+    // The numbers are sorted, so the edges cut them.
+    auto from = finite.begin();
+    for (std::size_t i = 0; i < bins; ++i) {
+        auto const to = i + 1 == bins ? finite.end() : std::lower_bound(from, finite.end(), result.edges[i + 1]);
+        result.counts.push_back(static_cast<std::uint64_t>(to - from));
+        from = to;
+    }
+    return result;
 }
 
 }  // namespace slideway

@@ -18,6 +18,12 @@ struct Interval {
     double half_width() const { return 0.5 * (high - low); }
 };
 
+/// A number and its interval.
+struct Estimate {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    Interval interval;
+};
+
 /// Of the numbers that are not NaN; all NaN when there are none.
 struct Summary {
     std::size_t count = 0;    // numbers used
@@ -53,12 +59,8 @@ template <class ValueAt> double quantile_of(std::uint64_t n, double p, ValueAt v
 /// @param sorted ascending, no NaN.
 double quantile(std::span<double const> sorted, double p);
 
-/// Share of members with a property.
-struct Proportion {
-    std::uint64_t successes = 0, trials = 0;
-    double value = std::numeric_limits<double>::quiet_NaN();  // successes / trials; NaN without trials
-    Interval interval;
-};
+/// Share of members with a property: successes / trials, NaN without trials.
+struct Proportion : Estimate { std::uint64_t successes = 0, trials = 0; };
 
 /// Score interval of a proportion p̂ = k/n of independent trials: the p with |p̂ - p| <= z √(p(1-p)/n), that is
 /// (p̂ + z²/2n ± z √(p̂(1-p̂)/n + z²/4n²)) / (1 + z²/n), z the (1+level)/2 quantile of the normal distribution.  Its
@@ -70,11 +72,8 @@ struct Proportion {
 /// @param successes k <= trials n.  @param level in (0, 1).  @return [0, 1] as interval without trials.
 Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level = 0.95);
 
-struct QuantileEstimate {
-    double p;      // probability
-    double value;  // sample quantile, type 7
-    Interval interval;
-};
+/// Sample quantile, type 7, of a probability p.
+struct QuantileEstimate : Estimate { double p; };
 
 /// Ranks, from 1, of two order statistics; 0 and n + 1 where there is none.
 struct RankInterval {
@@ -104,5 +103,33 @@ template <class ValueAt> Interval interval_of_ranks(std::uint64_t n, double p, d
 /// Sample quantiles with their intervals, one for each probability.
 std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted, std::span<double const> probabilities,
                                                  double level = 0.95);
+
+// Counts of a sample in equal bins.
+
+inline constexpr std::size_t most_bins = 64;
+
+/// Bin i is edges[i] <= x < edges[i+1], the last one with its upper edge.
+struct Histogram {
+    std::vector<double> edges;           // [bins + 1], ascending; empty without finite numbers
+    std::vector<std::uint64_t> counts;   // [bins]
+    std::uint64_t below = 0, above = 0;  // -infinity, +infinity: in no bin
+};
+
+/// Equal bins from the least to the largest finite number.  Their number is that of Freedman and Diaconis, the range
+/// over 2 IQR n^(-1/3), rounded up and limited to [1, 64]; where the quartiles coincide but not the ends it is 64.  A
+/// sample of one value alone has one bin of no width, both edges that value.  Infinite numbers are counted apart and
+/// take no part in range, quartiles and n.
+/// Source: Freedman and Diaconis (1981), On the histogram as a density estimator, Z. Wahrscheinlichkeitstheorie 57.
+/// @param sorted ascending, no NaN.
+Histogram histogram(std::span<double const> sorted);
+
+/// What the rule goes by.
+struct HistogramRange {
+    double least, largest;      // finite
+    double quartiles[2];        // lower, upper
+    std::uint64_t numbers = 0;  // finite ones, > 0
+};
+/// The edges of its bins.
+std::vector<double> histogram_edges(HistogramRange const& range);
 
 }  // namespace slideway

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/former_names.hpp"
+#include "host/config/outputs.hpp"
 #include "host/store/result_view.hpp"
 
 namespace slideway {

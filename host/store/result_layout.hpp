@@ -14,7 +14,7 @@
 #include "host/config/outputs.hpp"
 #include "host/sampling/design.hpp"
 #include "host/store/column.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway {
 

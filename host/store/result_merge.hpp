@@ -8,7 +8,7 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/store/netcdf_file.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/shard_folder.hpp"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "host/store/netcdf_file.hpp"
 
@@ -10,7 +11,7 @@ namespace slideway {
 inline constexpr char const* verification_group = "verification";
 
 /// Attribute `format_version` of results and shards.  Files without it are of format 1, which had no metadata hash; up to 2 quantities had names
-/// of then (host/config/former_names.hpp).  This program reads all of them.
+/// of then (host/config/outputs.hpp).  This program reads all of them.
 inline constexpr int format_version = 3;
 
 /// The hash over all variables of a file by name (a file made in memory forgets their order): name, number of
@@ -48,5 +49,12 @@ struct SealCheck {
 int format_of(DataFile const& file);
 /// Reads everything.  @throws FileError also where that fails
 SealCheck check_seal(NetcdfFile const& file);
+
+// What a file holds that slideway does not write, so that no hash of a result covers it.
+
+/// In words, by name: "variable extra of type float", "type mine", "attribute of y: weights", "object notes".  Of the data model of netCDF-4
+/// variables of other types than `DataFile::Type`, types of a user's own and attributes of these; of a file on the disk also objects and
+/// attributes of HDF5 that netCDF-4 does not see.  All else, of any name, is covered by one of the hashes.
+std::vector<std::string> uncovered(NetcdfFile const& file);
 
 }  // namespace slideway

@@ -15,11 +15,10 @@
 
 #include <fmt/format.h>
 
-#include "host/base/apart.hpp"
 #include "host/base/error.hpp"
-#include "host/base/memory_room.hpp"
 #include "host/base/open_file.hpp"
-#include "host/config/former_names.hpp"
+#include "host/base/process.hpp"
+#include "host/config/outputs.hpp"
 #include "host/run/ranks.hpp"
 #include "host/store/column.hpp"
 
@@ -112,25 +111,11 @@ std::string ResultView::group_attribute(std::string const& group, std::string co
     return found ? attribute_text(*found, name) : std::string();
 }
 
-std::unique_ptr<DataFile> ResultView::group(std::string const& name) const { return file_->has_group(name) ? file_->group(name) : nullptr; }
-
-bool ResultView::has(std::string const& variable) const { return std::ranges::count(variables_, variable, &DataFile::Variable::name) > 0; }
-
 std::vector<std::string> ResultView::variable_names() const {
     std::vector<std::string> names;
     for (DataFile::Variable const& variable : variables_) names.push_back(variable.name);
     return names;
 }
-
-std::string ResultView::unit(std::string const& variable) const { return file_->text(find(variable).id, "units"); }
-
-std::string ResultView::long_name(std::string const& variable) const { return file_->text(find(variable).id, "long_name"); }
-
-std::string ResultView::attribute_of(std::string const& variable, std::string const& name) const { return file_->text(find(variable).id, name); }
-
-std::vector<std::string> ResultView::dimensions_of(std::string const& variable) const { return find(variable).dimensions; }
-
-std::vector<std::size_t> ResultView::shape(std::string const& variable) const { return find(variable).shape; }
 
 std::vector<double> ResultView::values(std::string const& variable) const {
     DataFile::Variable const& found = find(variable);

@@ -2,6 +2,7 @@
 // some files of which a single byte has changed.  In a job of several ranks it is found out by the rank itself: MPI does not outlive a fork.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -25,13 +26,15 @@ public:
     bool stores_members() const { return attribute("store") != "statistics"; }
     std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
     std::string group_attribute(std::string const& group, std::string const& name) const;  // "" when there is none
-    std::unique_ptr<DataFile> group(std::string const& name) const;  // not to outlive the file; nullptr where there is none
-    bool has(std::string const& variable) const;
+    /// Not to outlive the file; nullptr where there is none.
+    std::unique_ptr<DataFile> group(std::string const& name) const { return file_->has_group(name) ? file_->group(name) : nullptr; }
+    bool has(std::string const& variable) const { return std::ranges::count(variables_, variable, &DataFile::Variable::name) > 0; }
     std::vector<std::string> variable_names() const;
-    std::string unit(std::string const& variable) const;
-    std::string long_name(std::string const& variable) const;
-    std::string attribute_of(std::string const& variable, std::string const& name) const;  // "" when there is none
-    std::vector<std::string> dimensions_of(std::string const& variable) const;
+    std::string unit(std::string const& variable) const { return file_->text(find(variable).id, "units"); }
+    std::string long_name(std::string const& variable) const { return file_->text(find(variable).id, "long_name"); }
+    /// "" when there is none.
+    std::string attribute_of(std::string const& variable, std::string const& name) const { return file_->text(find(variable).id, name); }
+    std::vector<std::string> dimensions_of(std::string const& variable) const { return find(variable).dimensions; }
     /// All values in C order.  @throws FileError if there is no such variable or it is not a number.
     std::vector<double> values(std::string const& variable) const;
     /// The same of so many.  @throws FileError also if there are not: the file was edited.
@@ -43,7 +46,7 @@ public:
     /// Of a float64 variable of one dimension, or of two, its column: the values along the first dimension.
     /// @throws FileError if there is no such variable or column.
     std::vector<double> column(std::string const& variable, std::size_t index) const;
-    std::vector<std::size_t> shape(std::string const& variable) const;
+    std::vector<std::size_t> shape(std::string const& variable) const { return find(variable).shape; }
     std::string const& path() const { return file_->path(); }
 
 private:

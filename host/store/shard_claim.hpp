@@ -1,4 +1,4 @@
-// The right to write into a folder of shards.
+// The right to write into a folder of shards, and to remove it.
 #pragma once
 
 #include <map>
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "host/base/file_lock.hpp"
+#include "host/store/run_identity.hpp"
+#include "host/store/result_view.hpp"
 #include "host/store/shard_folder.hpp"
 
 namespace slideway {
@@ -66,5 +68,18 @@ private:
     std::vector<DamagedShard> damaged_;
     std::string mended_;
 };
+
+// Whether a result holds all that a run was to compute, so that the shards it was made of may go.
+
+/// What tells the run of a result from another, in words: "study.seed was 1, is 2"; "" where it is that run.
+std::string difference(ResultReader const& result, RunIdentity const& identity);
+
+/// Why a result is not all that a run was to compute: it is gone, damaged, of another run or not complete; "" where it is.  Reads all of it.
+std::string why_not_finished(std::string const& result, RunIdentity const& identity);
+
+/// What a user hears of a folder of shards of which a result was made: that it is no longer needed, if the result is there, sealed and
+/// complete, or that it still is, and why.  No other words of the program let anybody remove anything (tests/structure looks for them).
+/// @param names_scene words before these name the scene in the folder
+std::string words_on_need(ShardFolder const& folder, std::string const& result, bool names_scene);
 
 }  // namespace slideway

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/member_numbers.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/probe.hpp"
 #include "host/study/result_summary.hpp"
 

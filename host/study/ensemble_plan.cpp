@@ -1,14 +1,16 @@
 #include "host/study/ensemble_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
+#include "host/config/descriptors.hpp"
+#include "host/sampling/random.hpp"
 #include "host/study/exponent_table.hpp"
-#include "host/study/orbit_schedule.hpp"
 
 namespace slideway {
-
 namespace {
 
 /// A smaller gap is crossed more often: from 0.5 to 0.05 mm the steps per second rise 1.6-fold (paper) to 6-fold (conservative).
@@ -111,6 +113,190 @@ Provenance provenance(Scene const& scene, Backend const& backend, int threads) {
 RunIdentity run_identity(Scene const& scene, MemberSet const& members, Backend const& backend) {
     std::string const resolved = resolved_toml(scene);
     return {build_info().text(), arithmetic_of(backend.isa()), members, portable_scene(resolved), paths_of_tables(resolved)};
+}
+
+namespace {
+
+// Records of growth, for the history and its errors: at least as many where there are as many rescalings, and not far more.
+constexpr std::size_t least_records = 256, most_records = 4096;
+
+std::size_t whole(double ratio) { return static_cast<std::size_t>(std::max(0.0, std::round(ratio))); }
+
+/// The end is the last stop, to the last bit as the kernels compute it.
+MemberClock clock(double first, double spacing, std::size_t stops) {
+    return {std::fma(static_cast<double>(stops - 1), spacing, first), first, spacing};
+}
+
+/// Of a member that goes by turns, from angles.  @param first_back its first stop, if its crank turns back
+MemberClock by_turns(MemberClock angles, double first_back, double time_limit) {
+    if (angles.period == 0) angles.turns = angles.end;  // the others end at their last stop
+    angles.first_back = first_back;
+    angles.end = time_limit;
+    return angles;
+}
+
+/// What a crank turns, forward, until it comes to a phase: in (0, 2π].  A start at the phase itself is no return to it.
+double way_to(double phase, double start) {
+    constexpr double turn = 2 * std::numbers::pi;
+    double const way = std::fmod(phase - start, turn), positive = way > 0 ? way : way + turn;
+    return positive > 1e-9 * turn ? positive : positive + turn;
+}
+
+/// Rescalings to a record: a divisor of `rescalings` if there is one that leaves neither too few records nor too many.
+std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetitions = 1,
+                                  std::size_t records = least_records) {
+    std::size_t const all = rescalings * repetitions;
+    std::size_t const most = std::clamp<std::size_t>(all / records, 1, rescalings);
+    for (std::size_t n = most; n >= std::max<std::size_t>(1, all / most_records); --n) {
+        if (rescalings % n == 0) return n;
+    }
+    return most;
+}
+
+/// Rescalings every dt from the start; those of the transient leave no record.
+OrbitSchedule of_exponents(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    double const turn = turn_length(scene), dt = chaos.dt.seconds(turn);
+    OrbitSchedule schedule;
+    StopPlan& stops = schedule.stops;
+    std::size_t const rescalings = std::max<std::size_t>(1, whole(chaos.span.seconds(turn) / dt));
+    stops.growth_every = rescalings_per_record(rescalings, 1, std::max(least_records, chaos.history));
+    std::size_t const records = (rescalings + stops.growth_every - 1) / stops.growth_every;
+    stops.transient = std::max<std::size_t>(1, whole(chaos.transient.seconds(turn) / dt)) - 1;
+    stops.count = stops.transient + records * stops.growth_every + 1;
+    if (scene.goes_by_turns()) {
+        MemberClock const of_all = by_turns(clock(dt, dt, stops.count), dt, scene.integrator.end_time);
+        schedule.timing = [of_all](Inputs const&) { return of_all; };
+        return schedule;
+    }
+    schedule.timing = [parts = scene.parts, spacing = chaos.dt, count = stops.count](Inputs const& inputs) {
+        double const length = spacing.seconds(drive_period(parts, inputs));
+        return clock(length, length, count);
+    };
+    return schedule;
+}
+
+/// Sections once a revolution, with rescalings at equal times between them if there are shadows.
+OrbitSchedule of_sections(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    double const turn = turn_length(scene);
+    std::size_t const per_turn =
+        chaos.exponents > 0 ? std::max<std::size_t>(1, whole(turn / chaos.dt.seconds(turn))) : 1;
+    std::size_t const transient = whole(std::ceil(chaos.transient.seconds(turn) / turn - 1e-9));
+    std::size_t const sections = std::max<std::size_t>(1, whole(chaos.span.seconds(turn) / turn));
+    OrbitSchedule schedule;
+    schedule.sections = true;
+    schedule.stops.transient = transient * per_turn;
+    schedule.stops.count = schedule.stops.transient + (sections - 1) * per_turn + 1;
+    schedule.stops.section_every = per_turn;
+    // The revolution before the first section counts too: growth over as many revolutions as there are sections.
+    if (chaos.exponents > 0) {
+        schedule.stops.growth_lead = transient > 0 ? per_turn : 0;
+        schedule.stops.growth_every = rescalings_per_record(per_turn, sections);
+    }
+    std::size_t const count = schedule.stops.count;
+    if (scene.goes_by_turns()) {
+        schedule.timing = [phase = chaos.section.level, spacing = turn / static_cast<double>(per_turn), count, limit = scene.integrator.end_time](Inputs const& in) {
+            return by_turns(clock(way_to(phase, in.start_angle), spacing, count), way_to(in.start_angle, phase), limit);
+        };
+        return schedule;
+    }
+    schedule.timing = [parts = scene.parts, phase = chaos.section.level, per_turn, count](Inputs const& inputs) {
+        double const spacing = drive_period(parts, inputs) / static_cast<double>(per_turn);
+        return clock(first_time_at(phase, parts, inputs), spacing, count);
+    };
+    return schedule;
+}
+
+/// What is recorded of a section: where a rigid contact closes its gap, an impact.
+CrossingPlan::On crossings_of(Scene const& scene) {
+    SectionSurface const& section = scene.chaos.section;
+    bool const closes = section.level == 0 && scene.parts.rigid && scene.integrator.method != Method::moreau_jean;
+    using On = SectionSurface::On;
+    switch (section.on) {
+        case On::gap_y:
+            return closes ? CrossingPlan::On::impacts_y : CrossingPlan::On::gap_y;
+        case On::gap_z:
+            return closes ? CrossingPlan::On::impacts_z : CrossingPlan::On::gap_z;
+        case On::impacts:
+            return CrossingPlan::On::impacts;
+        case On::phase:
+        case On::state:
+            break;
+    }
+    return CrossingPlan::On::state;
+}
+
+/// Crossings from the end of the transient on.
+OrbitSchedule of_crossings(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    OrbitSchedule schedule;
+    schedule.sections = true;
+    bool const of_state = chaos.section.on == SectionSurface::On::state;
+    bool const turns = of_state && info(scene.parts.mechanism).state[chaos.section.index] == Series::crank_angle;
+    schedule.crossings = {crossings_of(scene), chaos.section.direction, turns, chaos.section.index, chaos.section.level, chaos.max_crossings};
+    if (scene.goes_by_turns()) {
+        double const from = chaos.transient.seconds(turn_length(scene)), to = from + chaos.span.seconds(turn_length(scene));
+        MemberClock const of_all = by_turns({to, from, 0}, from, scene.integrator.end_time);
+        schedule.timing = [of_all](Inputs const&) { return of_all; };
+        return schedule;
+    }
+    schedule.timing = [parts = scene.parts, transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
+        double const period = drive_period(parts, inputs), from = transient.seconds(period);
+        return MemberClock{from + span.seconds(period), from, 0};
+    };
+    return schedule;
+}
+
+/// What a crank has turned at the end, whichever way it turns, at least [rad].
+double least_turned(OrbitSchedule const& schedule, Scene const& scene) {
+    MemberClock const own = schedule.timing(scene.inputs);
+    std::size_t const stops = schedule.stops.count;
+    return stops == 0 ? own.turns : std::fma(static_cast<double>(stops - 1), own.period, std::min(own.first_stop, own.first_back));
+}
+
+}  // namespace
+
+OrbitSchedule orbit_schedule(Scene const& scene) {
+    OrbitSchedule schedule;
+    if (scene.study == StudyKind::lyapunov) schedule = of_exponents(scene);
+    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) {
+        schedule = scene.chaos.section.on == SectionSurface::On::phase ? of_sections(scene) : of_crossings(scene);
+    }
+    if (scene.goes_by_turns() && !schedule.timing) {
+        MemberClock const of_all = by_turns({.end = scene.chaos.span.seconds(turn_length(scene))}, 0, scene.integrator.end_time);
+        schedule.timing = [of_all](Inputs const&) { return of_all; };
+    }
+    if (scene.has_own_ends())
+        schedule.timing = [parts = scene.parts, span = scene.chaos.span](Inputs const& in) { return MemberClock{.end = span.seconds(drive_period(parts, in))}; };
+    schedule.by_turns = scene.goes_by_turns();
+    schedule.end = schedule.timing ? schedule.timing(scene.inputs).end : scene.integrator.end_time;
+    schedule.turns = (schedule.by_turns ? least_turned(schedule, scene) : schedule.end) / turn_length(scene);
+    return schedule;
+}
+
+ShadowPlan shadow_plan(Scene const& scene) {
+    if (scene.study == StudyKind::ensemble || scene.study == StudyKind::poincare) return {};
+    ChaosSettings const& chaos = scene.chaos;
+    return {chaos.exponents, chaos.d0, chaos.d0_lower, chaos.d0_upper, nullptr};
+}
+
+void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, Parts const& parts, double* directions) {
+    int const states = info(parts.mechanism).states;
+    for (int shadow = 0; shadow < shadows; ++shadow) {
+        double* const w = directions + shadow * states;
+        double squares = 0;
+        for (int i = 0; i < states; ++i) {
+            std::uint64_t const place = static_cast<std::uint64_t>(shadow) * static_cast<std::uint64_t>(states) + static_cast<std::uint64_t>(i);
+            std::uint64_t const word = philox({member, place, 0, 0}, {seed, name_hash("shadow")})[0];
+            w[i] = is_prescribed(parts, i)
+                       ? 0
+                       : static_cast<double>(static_cast<std::int64_t>(word >> 11)) * 0x1p-52 - 1;  // in [-1, 1)
+            squares += w[i] * w[i];
+        }
+        double const length = std::sqrt(squares);
+        for (int i = 0; i < states; ++i) w[i] /= length;
+    }
 }
 
 }  // namespace slideway

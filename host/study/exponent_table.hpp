@@ -8,7 +8,7 @@
 #include "host/config/scene.hpp"
 #include "host/run/block_buffers.hpp"
 #include "host/store/result_layout.hpp"
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/ensemble_plan.hpp"
 
 namespace slideway {
 

@@ -11,10 +11,8 @@
 
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
-#include "host/run/ensemble.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/probe.hpp"
 #include "kernels/members/start.hpp"
 
@@ -69,8 +67,6 @@ std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> in
 double work_of(double right_hand_sides, double jacobians) { return right_hand_sides + jacobian_work * jacobians; }
 
 }  // namespace
-
-double MemberNumbers::total_work() const { return std::accumulate(work.begin(), work.end(), 0.0); }
 
 std::vector<std::uint64_t> spread_over(std::uint64_t all, std::uint64_t count) {
     std::vector<std::uint64_t> members;
@@ -183,19 +179,18 @@ private:
     std::vector<std::size_t> quantities_, limited_;  // places in a member's row
 };
 
-void run_some(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, FreshTaker& taker) {
-    EnsemblePlan const plan = ensemble_plan(scene, MemberSet::of(members), run.backend, run.threads);
-    StopRequest const nobody;
-    BlockKernel const kernel = run.backend.kernel(scene.parts, plan.request.shadows.count > 0);
-    run_ensemble(plan, kernel, [&](BlockResult const& block) { taker.take(block); }, run.stop != nullptr ? *run.stop : nobody, run.progress, run.weight);
-}
-
 }  // namespace
+
+EnsembleTotals run_members(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, BlockSink const& sink) {
+    EnsemblePlan const plan = ensemble_plan(scene, MemberSet::of(members), run.backend, run.threads);
+    return run_ensemble(plan, run.backend.kernel(scene.parts, plan.request.shadows.count > 0), sink, run.stop, run.progress, run.weight);
+}
 
 MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<std::uint64_t> const& most_steps) {
     FreshTaker taker(scene, members);
+    BlockSink const take = [&](BlockResult const& block) { taker.take(block); };
     if (most_steps.empty()) {
-        run_some(scene, members, run, taker);
+        run_members(scene, members, run, take);
         return taker.numbers();
     }
     // One number of steps bounds a run: those that may take as many run together.
@@ -204,7 +199,7 @@ MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const
     for (auto const& [most, some] : by_bound) {
         Scene bounded = scene;
         bounded.integrator.max_steps = std::min(scene.integrator.max_steps, most);
-        run_some(bounded, some, run, taker);
+        run_members(bounded, some, run, take);
     }
     return taker.numbers();
 }

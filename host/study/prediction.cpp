@@ -9,7 +9,6 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/member_numbers.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"
@@ -213,9 +212,7 @@ std::optional<Trial> try_members(Scene const& scene, Backend const& backend, int
             steps += given_up && record.time > 0 ? own * std::max(1.0, end / record.time) : own;
         }
     };
-    EnsemblePlan const plan = ensemble_plan(trial, MemberSet::of(spread_over(all, count)), backend, threads);
-    StopRequest const nobody;
-    EnsembleTotals const totals = run_ensemble(plan, backend.kernel(trial.parts, plan.request.shadows.count > 0), take, nobody);
+    EnsembleTotals const totals = run_members(trial, spread_over(all, count), {backend, threads}, take);
 
     Trial found;
     found.members = count;

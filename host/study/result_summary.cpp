@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/store/block_statistics.hpp"
 #include "host/store/result_layout.hpp"
-#include "host/store/statistics_merge.hpp"
 
 namespace slideway {
 namespace {
@@ -109,6 +110,158 @@ std::vector<FailedMember> failed_members(ResultView const& results, std::size_t 
         failed.push_back({count_of(numbers[i]), status, times[i]});
     }
     return failed;
+}
+
+namespace {
+
+std::vector<char> finished_members(ResultView const& results) {
+    std::vector<char> finished;
+    for (double const status : results.values("status")) finished.push_back(status_of(status) == Status::finished);
+    return finished;
+}
+
+/// Column j of the rows of `width` numbers whose member finished.
+std::vector<double> finished_column(std::vector<double> const& values, std::vector<char> const& finished, std::size_t width,
+                              std::size_t j) {
+    std::vector<double> column;
+    for (std::size_t i = 0; i < finished.size(); ++i) {
+        if (finished[i]) column.push_back(values[i * width + j]);
+    }
+    return column;
+}
+
+/// Of a member: the last of a variable's dimensions.  @throws FileError of a variable that has others, or none of them
+std::size_t exponents_of(ResultView const& results, char const* variable = "lyapunov_exponent", char const* dimensions = "member, exponent") {
+    auto const shape = results.shape(variable);
+    auto const rank = static_cast<std::size_t>(std::ranges::count(std::string_view(dimensions), ',')) + 1;
+    if (shape.size() == rank && shape.back() > 0) return shape.back();
+    throw FileError(fmt::format("{}: {} is not ({})", results.path(), variable, dimensions));
+}
+
+/// What a file has of the exponents of the members that finished.
+class StoredExponents {
+public:
+    explicit StoredExponents(ResultView const& results)
+        : finished_(finished_members(results)),
+          width_(exponents_of(results)),
+          value_(results.values("lyapunov_exponent", finished_.size() * width_)),
+          half_width_(results.values("lyapunov_exponent_half_width", finished_.size() * width_)),
+          late_(results.values("lyapunov_exponent_late", finished_.size() * width_)),
+          time_(results.values("lyapunov_time", finished_.size())),
+          resolution_(results.values("lyapunov_resolution", finished_.size())) {}
+
+    std::size_t width() const { return width_; }
+
+    /// Of exponent j, of the members from `first` to before `last`.
+    std::vector<ExponentRecord> records(std::size_t j, std::size_t first, std::size_t last) const {
+        std::vector<ExponentRecord> records;
+        for (std::size_t i = first; i < last; ++i) {
+            std::size_t const at = i * width_ + j;
+            if (finished_[i]) records.push_back({value_[at], half_width_[at], late_[at], time_[i]});
+        }
+        return records;
+    }
+    ExponentOfMembers over_members(std::size_t j, std::size_t first, std::size_t last) const {
+        double largest = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            if (finished_[i] && resolution_[i] > largest) largest = resolution_[i];
+        }
+        return exponent_of_members(records(j, first, last), largest);
+    }
+
+private:
+    std::vector<char> finished_;
+    std::size_t width_;
+    std::vector<double> value_, half_width_, late_, time_, resolution_;
+};
+
+}  // namespace
+
+std::vector<ExponentSummary> summarise_exponents(ResultView const& results) {
+    std::vector<ExponentSummary> summaries;
+    if (!results.has("lyapunov_exponent")) return summaries;
+    StoredExponents const stored(results);
+    std::size_t const members = results.values("status").size();
+    for (std::size_t j = 0; j < stored.width(); ++j) {
+        std::vector<double> values;
+        for (ExponentRecord const& record : stored.records(j, 0, members)) values.push_back(record.rate);
+        Summary const summary = summarise(values);
+        std::erase_if(values, [](double x) { return std::isnan(x); });
+        std::ranges::sort(values);
+        summaries.push_back({stored.over_members(j, 0, members), summary, quantile(values, 0.05), quantile(values, 0.95)});
+    }
+    std::stable_sort(summaries.begin(), summaries.end(),
+                     [](auto const& a, auto const& b) { return a.mean.mean > b.mean.mean; });
+    return summaries;
+}
+
+std::optional<MeanOfMembers> growth_per_turn(ResultView const& results) {
+    char const* const name = "lyapunov_exponent_per_turn";
+    if (!results.has(name)) return {};
+    auto const finished = finished_members(results);
+    std::size_t const width = exponents_of(results, name);
+    return mean_of_members(finished_column(results.values(name, finished.size() * width), finished, width, 0));
+}
+
+OffsetHealth offset_health(ResultView const& results) {
+    auto const finished = finished_members(results);
+    double const exponents = static_cast<double>(exponents_of(results));
+    auto const share = [&](char const* name) {
+        auto const counts = finished_column(results.values(name, finished.size()), finished, 1, 0);
+        auto const rescalings = finished_column(results.values("rescalings", finished.size()), finished, 1, 0);
+        double counted = 0, all = 0;
+        for (std::size_t i = 0; i < counts.size(); ++i) counted += counts[i], all += exponents * rescalings[i];
+        return all > 0 ? counted / all : 0.0;
+    };
+    return {share("lost_offsets"), share("grown_offsets")};
+}
+
+std::vector<SweepColumn> summarise_columns(ResultView const& results) {
+    std::vector<SweepColumn> columns;
+    std::string const parameter = results.attribute("sweep_parameter");
+    if (parameter.empty()) return columns;
+    auto const finished = finished_members(results);
+    auto const values = results.values(parameter, finished.size());
+    std::optional<StoredExponents> exponents;
+    if (results.has("lyapunov_exponent")) exponents.emplace(results);
+    for (std::size_t first = 0, last = 0; first < values.size(); first = last) {
+        while (last < values.size() && values[last] == values[first]) ++last;
+        last = std::max(last, first + 1);  // of NaN, in a file that was edited
+        auto const from = finished.begin() + static_cast<std::ptrdiff_t>(first), to = finished.begin() + static_cast<std::ptrdiff_t>(last);
+        SweepColumn& column = columns.emplace_back();
+        column.value = values[first];
+        column.members = last - first;
+        column.finished = static_cast<std::uint64_t>(std::count(from, to, 1));
+        column.exponent = exponents ? exponents->over_members(0, first, last) : exponent_of_members({}, 0);
+    }
+    return columns;
+}
+
+std::vector<HistoryPoint> exponent_history(ResultView const& results) {
+    std::vector<HistoryPoint> history;
+    if (!results.has("lyapunov_history")) return history;
+    auto const finished = finished_members(results);
+    auto const rescalings = results.values("history");
+    std::size_t const exponents = exponents_of(results, "lyapunov_history", "member, history, exponent");
+    auto const values = results.values("lyapunov_history", finished.size() * rescalings.size() * exponents);
+    for (std::size_t n = 0; n < rescalings.size(); ++n) {
+        history.push_back({rescalings[n], mean_of_members(finished_column(values, finished, rescalings.size() * exponents, n * exponents))});
+    }
+    return history;
+}
+
+std::optional<SectionSummary> summarise_sections(ResultView const& results) {
+    if (!results.has("section_count")) return std::nullopt;
+    auto const finished = finished_members(results);
+    auto const counts = results.values("section_count", finished.size());
+    auto const crossings = results.has("section_crossings") ? results.values("section_crossings", counts.size()) : counts;
+    SectionSummary summary;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        summary.beyond += count_of(crossings[i] - counts[i]);
+        summary.sections += count_of(counts[i]);
+        if (finished[i] && counts[i] == 0) ++summary.without;
+    }
+    return summary;
 }
 
 }  // namespace slideway

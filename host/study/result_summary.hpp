@@ -1,15 +1,18 @@
-// What a result file tells about its ensemble, for the end of a run and for `info`.
+// What a result file tells: about its ensemble and its orbits, for the end of a run and for `info`, and as tables for other programs.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/chaos/exponents.hpp"
 #include "host/run/member_set.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/block_statistics.hpp"
 #include "host/store/result_view.hpp"
+#include "host/store/table_file.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway {
@@ -50,5 +53,59 @@ std::vector<FailedMember> failed_members(ResultView const& results, std::size_t 
 
 /// "finished", also "not_run".
 std::string name_of(Status status);
+
+/// One exponent over the members that finished [1/s].
+struct ExponentSummary : ExponentOfMembers {
+    Summary values;
+    double low, high;  // 5 % and 95 % quantiles
+};
+
+/// The largest mean first; empty if the file holds none.
+std::vector<ExponentSummary> summarise_exponents(ResultView const& results);
+
+/// The first exponent as growth in a turn of the crank, over the members that finished; nothing if the file has none of cranks that turn freely.
+std::optional<MeanOfMembers> growth_per_turn(ResultView const& results);
+
+/// Shares of the rescalings at which an offset had shrunk into rounding, or grown to the size of the joint.
+struct OffsetHealth {
+    double lost, grown;
+};
+OffsetHealth offset_health(ResultView const& results);
+
+/// Members of one value of a sweep's parameter.
+struct SweepColumn {
+    double value;
+    std::uint64_t members, finished;
+    ExponentOfMembers exponent;  // the largest one; of no members without exponents
+};
+/// In the file's order; empty if it is no sweep.
+std::vector<SweepColumn> summarise_columns(ResultView const& results);
+
+/// Ensemble mean of the largest exponent after so many rescalings, with its confidence interval.
+struct HistoryPoint {
+    double rescalings;
+    MeanOfMembers mean;
+};
+std::vector<HistoryPoint> exponent_history(ResultView const& results);
+
+struct SectionSummary {
+    std::uint64_t sections = 0;  // of all members
+    std::uint64_t without = 0;   // members that finished and have none
+    std::uint64_t beyond = 0;    // crossings for which there was no room
+};
+/// Nothing if the file holds no sections.
+std::optional<SectionSummary> summarise_sections(ResultView const& results);
+
+// The tables of a result that other programs read: members, time series, sections.
+
+// The view must outlive the tables, which read it when they are written.  Each throws SceneError where a result has no such table.
+
+/// What a result says of each member: number, status, label, what varies under its key, quantities, and whatever else it has a number of.
+ExportTable table_of_members(ResultView const& results);
+
+/// @param names of series; none: all  @throws SceneError also for one that is not there
+ExportTable table_of_series(ResultView const& results, std::vector<std::string> const& names);
+
+ExportTable table_of_sections(ResultView const& results);
 
 }  // namespace slideway

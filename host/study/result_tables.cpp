@@ -1,5 +1,3 @@
-#include "host/study/result_tables.hpp"
-
 #include <algorithm>
 #include <map>
 #include <span>
@@ -8,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "host/base/error.hpp"
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/study/result_summary.hpp"
 

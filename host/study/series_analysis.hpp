@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/chaos/cc_method.hpp"
+#include "host/chaos/delay_embedding.hpp"
 #include "host/chaos/divergence.hpp"
 #include "host/chaos/zero_one_test.hpp"
 

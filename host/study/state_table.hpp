@@ -1,12 +1,16 @@
-// States to probe: the scene's start, or the rows of a CSV table in the format of tests/golden/rhs_*.csv.
+// States to probe: the scene's start, the rows of a CSV table in the format of tests/golden/rhs_*.csv, or what a result has stored.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/config/scene.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway {
 
@@ -36,5 +40,20 @@ StateTable state_table(Scene const& scene, std::span<double const> states, std::
 /// the scene has it or the table has a friction.* column.
 /// @param name of the table, for messages.  @throws SceneError `name:line: column …`.
 StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene);
+
+/// A state that a result has stored, to be probed.
+struct StoredState {
+    std::uint64_t member;
+    double time;                  // [s]
+    std::string_view of;          // "sample", "section" or "end"
+    std::vector<double> numbers;  // of the mechanism's state
+};
+
+/// The one that is nearest in time.  @param mechanism of the result  @param member nothing: the first of the file  @param time [s]; nothing: the end
+/// @throws SceneError if there is no such member, or no state of it
+StoredState stored_state(ResultView const& results, Mechanism mechanism, std::optional<std::uint64_t> member, std::optional<double> time);
+
+/// Gives the inputs of the result's scene the numbers with which a member ran.
+void take_member(Scene& scene, ResultView const& results, std::uint64_t member);
 
 }  // namespace slideway

@@ -10,10 +10,10 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/config/document.hpp"
-#include "host/store/finished_result.hpp"
+#include "host/store/block_statistics.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
-#include "host/store/statistics_merge.hpp"
+#include "host/store/shard_claim.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/verification.hpp"
@@ -154,8 +154,6 @@ void StudyRun::claim(ShardClaim::Wanted const& wanted) {
     work_ = {mine_.without(claim_->done()), claim_->done().count()};
 }
 
-std::vector<DamagedShard> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<DamagedShard>(); }
-
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.
     std::uint64_t const shards =
@@ -215,7 +213,7 @@ void StudyRun::merge_all(StopRequest const& stop, std::optional<ToleranceReport>
 
 std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress) {
     return [&scene, &backend, threads, &stop, progress](DataFile& file) {
-        write_verification(file, verify(ResultView(file), scene, backend, {scene.verify, threads, &stop, progress}));
+        write_verification(file, verify(ResultView(file), scene, backend, {scene.verify, threads, stop, progress}));
     };
 }
 

@@ -78,7 +78,7 @@ public:
     OutputTarget const& target() const { return target_; }
     StudyWork const& work() const { return work_; }
     /// Shards that were not what had been written: their members run again.
-    std::vector<DamagedShard> damaged() const;
+    std::vector<DamagedShard> damaged() const { return claim_ ? claim_->damaged() : std::vector<DamagedShard>(); }
     /// See ShardClaim.
     std::string mended() const { return claim_ ? claim_->mended() : std::string(); }
 

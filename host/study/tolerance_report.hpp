@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "host/config/scene.hpp"
 #include "host/run/ensemble.hpp"
+#include "host/sampling/design.hpp"
 #include "host/statistics/correlation.hpp"
-#include "host/statistics/histogram.hpp"
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/block_statistics.hpp"
@@ -19,6 +20,7 @@
 #include "host/store/result_layout.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
+#include "kernels/status.hpp"
 
 namespace slideway {
 
@@ -60,7 +62,7 @@ struct ColumnCorrelations {
     QuantityColumn column;
     std::string why_none;                    // as of indices
     std::size_t members = 0;                 // used: finished, with a number
-    std::vector<CorrelationEstimate> ranks;  // [inputs], Spearman's
+    std::vector<Estimate> ranks;  // [inputs], Spearman's
     StandardisedRegression regression;       // [inputs]
     std::vector<std::size_t> ranking;        // inputs, the largest magnitude of the rank correlation first
 };
@@ -94,7 +96,7 @@ struct ReportSettings {
 /// - members that did not run are counted, and left out everywhere else; there are no intervals then, for the slow ones are missing;
 /// - of a saltelli design distributions and yields are of the 2N members of A and B, each a draw of all inputs; rows
 ///   with a member that failed or is missing are left out of the indices whole, and counted;
-/// - a column that varies by no more than the error of its numbers (noise_floor.hpp) has no indices or correlations.
+/// - a column that varies by no more than the error of its numbers has no indices or correlations.
 /// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One
 /// column of all members is in memory at a time, and the inputs of at most `most_correlated` members.
 /// A result that keeps statistics in place of members has the same report without correlations: moments, ends and yields are those of the
@@ -112,5 +114,65 @@ ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, 
 /// are of.
 /// @throws FileError.
 void write_statistics(DataFile& file, ToleranceReport const& report);
+
+// Members of a result in the order of their numbers.
+
+/// Members per row of a saltelli design, d + 2; of other designs 0.
+std::size_t design_width(Scene const& scene);
+
+class ToleranceMembers {
+public:
+    /// @param width `design_width` of the scene, or 0 where draws make no difference.  @param members of the whole design.
+    /// @throws FileError if a number is not of the design or comes twice.
+    ToleranceMembers(ResultView const& results, std::size_t width, std::uint64_t members);
+
+    std::size_t size() const { return numbers_.size(); }
+    std::uint64_t number(std::size_t i) const { return numbers_[i]; }
+    Status status(std::size_t i) const { return statuses_[i]; }
+    bool finished(std::size_t i) const { return statuses_[i] == Status::finished; }
+    bool ran(std::size_t i) const { return statuses_[i] != Status::not_run; }
+    /// One of those that distributions and yields are of: of a saltelli design A and B, of others all.
+    bool is_draw(std::size_t i) const { return width_ == 0 || numbers_[i] % width_ < 2; }
+
+    /// A column of a member variable, in the order of the numbers.
+    std::vector<double> column(std::string const& variable, std::size_t index = 0) const;
+
+    /// How many ended how, not_run last; of all, or of the draws.
+    std::vector<StatusCount> count(bool draws_only) const;
+
+private:
+    ResultView const& results_;
+    std::size_t width_;
+    std::vector<std::uint64_t> numbers_;  // ascending
+    std::vector<Status> statuses_;
+    std::vector<std::size_t> places_;  // in the file; empty where it is in order
+};
+
+/// Sobol indices of each column, of a saltelli design.
+/// @param independent whether the rows are random draws: only these have intervals.
+IndexReport index_report(ToleranceMembers const& members, Scene const& scene, std::span<QuantityColumn const> columns,
+                         bool independent, ReportSettings const& settings);
+
+/// Rank correlations and regression of each column, of other designs.
+/// @param independent whether the members are random draws: only these have intervals.
+std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& members, Scene const& scene,
+                                                   std::span<QuantityColumn const> columns, bool independent,
+                                                   ReportSettings const& settings);
+
+// Whether numbers of members differ by more than the error that each of them has.
+
+/// Energy below which a number is taken as none [J]: a millionth (the default tolerance) of what a fall through the clearance gives
+/// (fall_energy).  Energies are differences of ones of that size: where the true number is 0 (no friction, nothing that damps) what is
+/// left is their rounding, and has no size of its own to be compared with.
+double least_energy(Scene const& scene);
+
+/// Error of a column's numbers, in its unit: 1e-6, the default tolerance, of the largest magnitude.  Of energies at least that share of a fall
+/// through the clearance.
+double error_of_column(QuantityColumn const& column, std::span<double const> values, Scene const& scene);
+
+/// Why sensitivities of a column would be those of rounding: its standard deviation is no more than its numbers' error, or it is that
+/// error (the energy residual of a law that makes no energy).  "" where it varies by more, or is not finite.
+/// @param values of members; NaN are left out
+std::string why_no_sensitivity(QuantityColumn const& column, std::span<double const> values, Scene const& scene);
 
 }  // namespace slideway

@@ -1,13 +1,16 @@
-#include "host/study/noise_floor.hpp"
-#include "host/study/tolerance_members.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
 
+#include <fmt/format.h>
+
+#include "host/config/descriptors.hpp"
 #include "host/sampling/random.hpp"
+#include "host/statistics/summary.hpp"
 #include "host/store/result_layout.hpp"
+#include "host/study/tolerance_report.hpp"
+#include "host/study/verification.hpp"
 
 namespace slideway {
 namespace {
@@ -152,6 +155,31 @@ std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& membe
         report.push_back(correlations_of({column, std::move(why_none), 0, {}, {}, {}}, inputs, std::move(output), independent));
     }
     return report;
+}
+
+namespace {
+
+constexpr double relative_error = 1e-6;  // the default rtol
+
+}  // namespace
+
+double least_energy(Scene const& scene) { return relative_error * fall_energy(scene); }
+
+double error_of_column(QuantityColumn const& column, std::span<double const> values, Scene const& scene) {
+    double scale = column.unit == "J" ? fall_energy(scene) : 0;
+    for (double const x : values) scale = std::fmax(scale, std::abs(x));
+    return relative_error * scale;
+}
+
+std::string why_no_sensitivity(QuantityColumn const& column, std::span<double const> values, Scene const& scene) {
+    Summary const summary = summarise(values);
+    if (summary.count < 2) return "";
+    if (summary.min == summary.max) return "does not vary";
+    if (column.quantity == "energy_residual" && !makes_energy(scene.parts)) return "is the integration's error";
+    double const error = error_of_column(column, values, scene);
+    if (!(summary.sd <= error)) return "";
+    std::string const unit = column.unit == "1" ? "" : " " + column.unit;
+    return fmt::format("varies by {:.2g}{}, no more than its error of {:.2g}{}", summary.sd, unit, error, unit);
 }
 
 }  // namespace slideway

@@ -14,7 +14,6 @@
 #include "host/statistics/error_bound.hpp"
 #include "host/store/data_file.hpp"
 #include "host/store/result_view.hpp"
-#include "host/study/check_sample.hpp"
 #include "host/study/member_numbers.hpp"
 
 namespace slideway {
@@ -77,19 +76,6 @@ struct CheckedNumber {
     bool agrees_as_all_do() const { return spread == 0 && two_methods && cut == 0 && error.bound <= margin; }
 };
 
-/// What is compared: a study's numbers, and those of its members that ran again.
-struct Comparison {
-    MemberNumbers const& study;  // [rows]
-    std::vector<MemberGroup> const& groups;
-    std::vector<CheckPair> const& pairs;
-    std::vector<std::vector<double>> const& again;  // [columns][pairs]
-    std::vector<CheckMethod> const& methods;
-    std::vector<char> const& draws;                 // [rows] those that the study's means and intervals are of
-    std::uint64_t members;  // of the study, where `study` has some of them alone; else as many as it has
-};
-/// Bounds every number of every group.  @return [groups][columns]
-std::vector<CheckedNumber> check_numbers(Comparison const& comparison, Scene const& scene);
-
 /// What the slider's fall through its clearance gives [J], M g c + M (cΩ)².
 double fall_energy(Scene const& scene);
 
@@ -114,11 +100,13 @@ inline constexpr char const* resolution_names[] = {"resolved", "error_bounded", 
 struct Verification {
     Resolution resolution = Resolution::not_checked;
     std::string settings;                 // the study's own: "auto at rtol 1e-06"
-    std::vector<std::string> methods;     // [checks]
+    std::vector<CheckMethod> methods;     // [checks]
     std::vector<std::size_t> cut;         // [checks] members that did not come to their end by it
     double share = 0;                     // of the study's work
     MemberNumbers study;                  // [rows]
+    std::uint64_t all = 0;                // members of the study, where `study` has some of them alone; else as many as it has
     std::vector<std::uint64_t> members;   // [rows] their numbers
+    std::vector<char> draws;              // [rows] those that the study's means and intervals are of
     std::vector<MemberGroup> groups;
     std::vector<CheckPair> pairs;
     std::vector<std::vector<double>> again;  // [columns][pairs]
@@ -128,12 +116,15 @@ struct Verification {
     std::string summary;                  // lines of words, the first one says it all
 };
 
+/// Bounds every number of every group by the pairs that there are.  @return [groups][columns]
+std::vector<CheckedNumber> check_numbers(Verification const& v, Scene const& scene);
+
 /// What it may take.
 struct VerificationRequest {
     /// Members that may run again, whatever it costs; none: as many as a tenth of the study's work allows.
     std::optional<std::uint64_t> members;
     int threads = 1;
-    StopRequest const* stop = nullptr;     // ends it: not_checked
+    StopRequest const& stop = never_stops;  // ends it: not_checked
     Progress::Style progress = Progress::Style::none;
 };
 /// Fewer pairs are not begun with.

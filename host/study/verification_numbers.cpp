@@ -5,7 +5,7 @@
 
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
@@ -39,10 +39,10 @@ double natural_scale(std::string const& unit, Scene const& scene) {
 bool is_certain(double mean, double half_width) { return std::abs(mean) > half_width; }
 
 /// Values of a column in those rows of a group that are draws.
-std::vector<double> group_values(Comparison const& c, MemberGroup const& group, std::size_t column) {
+std::vector<double> group_values(Verification const& v, MemberGroup const& group, std::size_t column) {
     std::vector<double> values;
     for (std::size_t row = 0; row < group.has.size(); ++row) {
-        if (group.has[row] && c.draws[row]) values.push_back(c.study.columns[column].values[row]);
+        if (group.has[row] && v.draws[row]) values.push_back(v.study.columns[column].values[row]);
     }
     return values;
 }
@@ -55,13 +55,13 @@ double skewness(std::vector<double> const& values, Summary const& summary) {
 }
 
 /// What the study says of a number, how sure it is, and how far its members scatter.
-void describe_study(CheckedNumber& n, Comparison const& c, Scene const& scene) {
-    auto const& column = c.study.columns[n.column];
-    std::vector<double> const values = group_values(c, c.groups[n.group], n.column);
+void describe_study(CheckedNumber& n, Verification const& v, Scene const& scene) {
+    auto const& column = v.study.columns[n.column];
+    std::vector<double> const values = group_values(v, v.groups[n.group], n.column);
     Summary const summary = summarise(values);
     auto const known = static_cast<double>(summary.count);
     // Of a study whose members are not stored some stand for all.
-    double const all = n.group == 0 && c.members > c.study.finished.size() ? static_cast<double>(c.members) : known;
+    double const all = n.group == 0 && v.all > v.study.finished.size() ? static_cast<double>(v.all) : known;
     n.value = summary.count > 0 ? summary.mean : nan;
     n.half_width = summary.count > 1 ? mean_interval(summary, level).half_width() * std::sqrt(known / all) : 0;
     n.spread = summary.count > 1 ? summary.sd : 0;
@@ -85,16 +85,16 @@ void describe_study(CheckedNumber& n, Comparison const& c, Scene const& scene) {
 }
 
 /// Differences of a group's pairs, check less study; of one method, or of all that count for the column.
-std::vector<double> differences(Comparison const& c, CheckedNumber const& n, std::ptrdiff_t method = -1) {
+std::vector<double> differences(Verification const& v, CheckedNumber const& n, std::ptrdiff_t method = -1) {
     std::vector<double> found;
-    bool const is_exponent = c.study.columns[n.column].kind == Kind::exponent;
-    for (std::size_t i = 0; i < c.pairs.size(); ++i) {
-        CheckPair const& pair = c.pairs[i];
-        CheckMethod const& by = c.methods[pair.method];
+    bool const is_exponent = v.study.columns[n.column].kind == Kind::exponent;
+    for (std::size_t i = 0; i < v.pairs.size(); ++i) {
+        CheckPair const& pair = v.pairs[i];
+        CheckMethod const& by = v.methods[pair.method];
         bool const counts = method < 0 ? !by.of_exponents : pair.method == static_cast<std::size_t>(method);
-        if (!pair.finished || !c.groups[n.group].has[pair.row] || !counts || (by.of_exponents && !is_exponent)) continue;
+        if (!pair.finished || !v.groups[n.group].has[pair.row] || !counts || (by.of_exponents && !is_exponent)) continue;
         double const difference =
-            by.error_per_difference * (c.again[n.column][i] - c.study.columns[n.column].values[pair.row]);
+            by.error_per_difference * (v.again[n.column][i] - v.study.columns[n.column].values[pair.row]);
         if (!std::isnan(difference)) found.push_back(difference);
     }
     return found;
@@ -102,19 +102,19 @@ std::vector<double> differences(Comparison const& c, CheckedNumber const& n, std
 
 /// The bound by all pairs; where one method says more than that, by it: what it sees alone others would dilute.
 /// @param p a test of all pairs, and of those of each method
-void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) {
+void bound_error(CheckedNumber& n, Verification const& v, std::vector<double>& p) {
     std::size_t const members =
-        n.group == 0 ? std::max<std::size_t>(c.groups[0].size(), c.members) : c.groups[n.group].size();
-    double const grain = c.study.columns[n.column].unit == "1" ? 1 : 0;
-    n.error = error_bound(differences(c, n), members, n.unseen, grain);
+        n.group == 0 ? std::max<std::size_t>(v.groups[0].size(), v.all) : v.groups[n.group].size();
+    double const grain = v.study.columns[n.column].unit == "1" ? 1 : 0;
+    n.error = error_bound(differences(v, n), members, n.unseen, grain);
     p.push_back(n.error.p);
     double largest = std::abs(n.error.difference);
-    for (std::size_t method = 0; method < c.methods.size(); ++method) {
+    for (std::size_t method = 0; method < v.methods.size(); ++method) {
         ErrorBound const of_method =
-            error_bound(differences(c, n, static_cast<std::ptrdiff_t>(method)), members, n.unseen, grain);
+            error_bound(differences(v, n, static_cast<std::ptrdiff_t>(method)), members, n.unseen, grain);
         p.push_back(of_method.pairs >= least_members ? of_method.p : nan);
         // Offsets that collapse into rounding tell nothing but that they collapse.
-        bool const collapse = c.methods[method].of_exponents && n.value < 0 && n.value + of_method.difference < 0;
+        bool const collapse = v.methods[method].of_exponents && n.value < 0 && n.value + of_method.difference < 0;
         if (collapse) p.back() = nan;
         if (collapse || of_method.pairs < 2 || !(std::abs(of_method.difference) > largest)) continue;
         largest = std::abs(of_method.difference);
@@ -122,8 +122,8 @@ void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) 
         n.error.bound = std::max(n.error.bound, largest);
     }
     std::array<std::size_t, 2> by{};  // the first two methods are of all numbers
-    for (CheckPair const& pair : c.pairs) {
-        if (!c.groups[n.group].has[pair.row]) continue;
+    for (CheckPair const& pair : v.pairs) {
+        if (!v.groups[n.group].has[pair.row]) continue;
         n.cut += !pair.finished;
         if (pair.finished && pair.method < by.size()) ++by[pair.method];
     }
@@ -131,10 +131,10 @@ void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) 
 }
 
 /// Whether those that ran again are not certain of the sign of the study's mean, by their own interval.
-bool has_other_sign(CheckedNumber const& n, Comparison const& c) {
+bool has_other_sign(CheckedNumber const& n, Verification const& v) {
     std::vector<double> again;
-    for (std::size_t i = 0; i < c.pairs.size(); ++i) {
-        if (c.groups[n.group].has[c.pairs[i].row]) again.push_back(c.again[n.column][i]);
+    for (std::size_t i = 0; i < v.pairs.size(); ++i) {
+        if (v.groups[n.group].has[v.pairs[i].row]) again.push_back(v.again[n.column][i]);
     }
     Summary const summary = summarise(again);
     if (summary.count < least_members) return false;
@@ -151,11 +151,11 @@ Verdict verdict_of(CheckedNumber const& n) {
 
 /// A number in which all members are alike tells nothing by itself: those that would show it may be missing.  It is worth what the others are,
 /// and nothing where it is 0: what nobody has seen was not compared.
-void follow_others(std::vector<CheckedNumber>& numbers, Comparison const& c) {
+void follow_others(std::vector<CheckedNumber>& numbers, Verification const& v) {
     auto const is_alike = [](CheckedNumber const& n) { return n.verdict == Verdict::resolved && n.agrees_as_all_do(); };
-    std::vector<Verdict> worst(c.groups.size(), Verdict::resolved);
+    std::vector<Verdict> worst(v.groups.size(), Verdict::resolved);
     for (CheckedNumber const& n : numbers) {
-        if (c.study.columns[n.column].kind != Kind::contacts && !is_alike(n)) worst[n.group] = std::max(worst[n.group], n.verdict);
+        if (v.study.columns[n.column].kind != Kind::contacts && !is_alike(n)) worst[n.group] = std::max(worst[n.group], n.verdict);
     }
     for (CheckedNumber& n : numbers) {
         if (is_alike(n)) n.verdict = n.is_unseen() ? Verdict::undecided : std::min(worst[n.group], Verdict::undecided);
@@ -180,28 +180,28 @@ std::optional<EnergyCheck> audit_energy(std::vector<double> const& residuals, Sc
     return EnergyCheck{share, !(share < most_energy)};
 }
 
-std::vector<CheckedNumber> check_numbers(Comparison const& c, Scene const& scene) {
+std::vector<CheckedNumber> check_numbers(Verification const& v, Scene const& scene) {
     std::vector<CheckedNumber> numbers;
     std::vector<double> p;
-    for (std::size_t group = 0; group < c.groups.size(); ++group) {
-        for (std::size_t column = 0; column < c.study.columns.size(); ++column) {
+    for (std::size_t group = 0; group < v.groups.size(); ++group) {
+        for (std::size_t column = 0; column < v.study.columns.size(); ++column) {
             CheckedNumber& n = numbers.emplace_back();
             n.group = group;
             n.column = column;
-            describe_study(n, c, scene);
-            bound_error(n, c, p);
+            describe_study(n, v, scene);
+            bound_error(n, v, p);
         }
     }
     std::vector<double> const adjusted = holm_adjusted(p);
-    std::size_t const tests = 1 + c.methods.size();
+    std::size_t const tests = 1 + v.methods.size();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         CheckedNumber& n = numbers[i];
         for (std::size_t test = 0; test < tests; ++test) n.p = std::fmin(n.p, adjusted[i * tests + test]);
-        auto const& column = c.study.columns[n.column];
-        n.refutes_sign = column.kind == Kind::exponent && is_certain(n.value, n.half_width) && n.p < 1 - level && has_other_sign(n, c);
+        auto const& column = v.study.columns[n.column];
+        n.refutes_sign = column.kind == Kind::exponent && is_certain(n.value, n.half_width) && n.p < 1 - level && has_other_sign(n, v);
         n.verdict = verdict_of(n);
     }
-    follow_others(numbers, c);
+    follow_others(numbers, v);
     return numbers;
 }
 

@@ -6,7 +6,6 @@
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/study/ensemble_plan.hpp"
-#include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
@@ -60,10 +59,7 @@ Orbit orbit_of(Scene const& scene, FreshRun const& run) {
         orbit.times.assign(block.clock.begin(), block.clock.end());
         if (orbit.times.empty()) orbit.times = looked.sample_times;
     };
-    EnsemblePlan const plan = ensemble_plan(looked, MemberSet(MemberRange{0, 1}), run.backend, run.threads);
-    StopRequest const nobody;
-    run_ensemble(plan, run.backend.kernel(scene.parts, plan.request.shadows.count > 0), take,
-                 run.stop != nullptr ? *run.stop : nobody, run.progress, run.weight);
+    run_members(looked, {0}, run, take);
     auto const end = std::ranges::find_if(orbit.sections, [](double x) { return std::isnan(x); });
     auto const width = static_cast<std::ptrdiff_t>(1 + orbit.states);
     orbit.sections.resize(static_cast<std::size_t>((end - orbit.sections.begin()) / width * width));
@@ -138,13 +134,13 @@ void judge(CheckedNumber& n, std::vector<double> const& differences, std::size_t
 }
 
 /// Each number by what the checks that are of it say.
-void judge_numbers(Verification& v, std::vector<CheckMethod> const& methods) {
+void judge_numbers(Verification& v) {
     for (CheckedNumber& n : v.numbers) {
         auto const& column = v.study.columns[n.column];
         std::vector<double> differences;
         std::size_t checks = 0;
         for (CheckPair const& pair : v.pairs) {
-            if (methods[pair.method].of_exponents && column.kind != MemberNumbers::Kind::exponent) continue;
+            if (v.methods[pair.method].of_exponents && column.kind != MemberNumbers::Kind::exponent) continue;
             ++checks;
             double const difference = v.again[n.column][pair.method] - column.values[0];
             if (!std::isnan(difference)) differences.push_back(difference);
@@ -162,37 +158,34 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     Verification v;
     v.settings = words_of(scene.integrator);
     // Each runs for its numbers and once more for its orbit.
-    std::vector<CheckMethod> const methods = check_methods(scene);
+    v.methods = check_methods(scene);
     ProgressTask task{1};
     task.is_check = true;
     task.work = 2;
-    for (CheckMethod const& method : methods) task.work += (method.of_exponents ? 1 : 2) * method.cost;
-    StopRequest const nobody;
-    Progress progress(task, request.progress, stderr, request.stop != nullptr ? *request.stop : nobody);
+    for (CheckMethod const& method : v.methods) task.work += (method.of_exponents ? 1 : 2) * method.cost;
+    Progress progress(task, request.progress, stderr, request.stop);
     FreshRun run{backend, request.threads, request.stop, &progress};
     std::vector<double> const scales = parting_scales(scene);
     Scene const bare = without_series(scene);
     v.study = fresh_numbers(bare, {0}, run);
-    auto const stopped = [&] { return request.stop != nullptr && request.stop->reason() != StopReason::none; };
+    auto const stopped = [&] { return request.stop.reason() != StopReason::none; };
     if (!v.study.finished.front()) {
         v.summary = stopped() ? check_was_stopped : "not checked against tighter tolerances: no member finished";
         return v;
     }
-    v.members = {0};
+    v.members = {0}, v.draws = {1}, v.all = 1;
     v.groups = {{"", {v.study.finished.front()}}};
     Orbit const own = orbit_of(bare, run);
     double const end = own.times.back();
     v.orbit = OrbitCheck{end, infinity, own.section_count(), own.section_count()};
     v.again.resize(v.study.columns.size());
     double spent = 2 * v.study.total_work();
-    for (CheckMethod const& method : methods) {
+    for (CheckMethod const& method : v.methods) {
         if (stopped()) break;
         run.weight = method.cost;
         MemberNumbers const numbers = fresh_numbers(method.scene, {0}, run);
-        std::size_t const index = v.methods.size();
-        v.methods.push_back(method.words);
         v.cut.push_back(numbers.finished[0] ? 0 : 1);
-        v.pairs.push_back({0, index, numbers.finished[0] != 0});
+        v.pairs.push_back({0, v.pairs.size(), numbers.finished[0] != 0});
         for (std::size_t column = 0; column < numbers.columns.size(); ++column)
             v.again[column].push_back(numbers.columns[column].values[0]);
         if (method.audits_energy) v.energy = audit_energy(numbers.energy_residual, scene);
@@ -208,8 +201,8 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
         return v;
     }
     v.share = spent / v.study.total_work();
-    v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, methods, {1}, 1}, scene);
-    judge_numbers(v, methods);
+    v.numbers = check_numbers(v, scene);
+    judge_numbers(v);
     conclude(v, scene, request);
     return v;
 }

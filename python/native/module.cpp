@@ -11,7 +11,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "host/base/bytes.hpp"
-#include "host/config/former_names.hpp"
+#include "host/config/outputs.hpp"
 #include "host/library/state.hpp"
 
 namespace nb = nanobind;

@@ -13,11 +13,10 @@
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include "host/store/block_statistics.hpp"
 #include "host/store/memory_file.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_seal.hpp"
-#include "host/store/statistics_merge.hpp"
-#include "host/study/orbit_summary.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/series_file.hpp"
 #include "tests/fuzz/fuzz.hpp"

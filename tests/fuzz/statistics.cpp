@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/store/statistics_merge.hpp"
+#include "host/store/block_statistics.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace slideway::fuzz {

@@ -40,20 +40,21 @@ struct MadeUp {
     std::vector<CheckMethod> methods = std::vector<CheckMethod>(2);
 
     CheckedNumber checked(std::size_t group = 0) const {
-        MemberNumbers study;
-        study.columns.push_back({"column", unit, kind, own});
-        study.finished.assign(own.size(), 1);
-        std::vector<MemberGroup> all{{"", std::vector<char>(own.size(), 1)}};
-        all.insert(all.end(), groups.begin(), groups.end());
-        std::vector<CheckPair> pairs;
-        std::vector<std::vector<double>> values(1);
+        Verification v;
+        v.methods = methods;
+        v.study.columns.push_back({"column", unit, kind, own});
+        v.study.finished.assign(own.size(), 1);
+        v.groups = {{"", std::vector<char>(own.size(), 1)}};
+        v.groups.insert(v.groups.end(), groups.begin(), groups.end());
+        v.again.resize(1);
         for (std::size_t i = 0; i < again.size(); ++i) {
             bool const finished = std::ranges::count(cut, i) == 0;
-            pairs.push_back({i, i % 2, finished});
-            values[0].push_back(finished ? again[i] + (i % 2) * other : nan);
+            v.pairs.push_back({i, i % 2, finished});
+            v.again[0].push_back(finished ? again[i] + (i % 2) * other : nan);
         }
-        std::vector<char> const is_draw(own.size(), 1);
-        return check_numbers({study, all, pairs, values, methods, is_draw, own.size()}, scene())[group];
+        v.draws.assign(own.size(), 1);
+        v.all = own.size();
+        return check_numbers(v, scene())[group];
     }
 };
 
@@ -118,7 +119,8 @@ TEST(Verdict, IsUndecidedWhereMembersWereCutShort) {
 
 TEST(Verdict, NamesMembersThatWereCutShort) {
     Verification v;
-    v.methods = {"auto at rtol 1e-08", "verner65 at rtol 1e-08"};
+    v.methods.resize(2);
+    v.methods[0].words = "auto at rtol 1e-08", v.methods[1].words = "verner65 at rtol 1e-08";
     v.cut = {1, 3};
     v.study.columns.push_back({"column", "N", Kind::quantity, {1, 2, 3, 4}});
     v.study.finished = {1, 1, 1, 1};
@@ -126,7 +128,9 @@ TEST(Verdict, NamesMembersThatWereCutShort) {
     v.groups = {{"", {1, 1, 1, 1}}};
     v.pairs = {{0, 0, true}, {1, 1, true}, {2, 0, false}};
     v.again = {{1, 2, nan}};
-    v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, std::vector<CheckMethod>(2), {1, 1, 1, 1}, 4}, scene());
+    v.draws = {1, 1, 1, 1};
+    v.all = 4;
+    v.numbers = check_numbers(v, scene());
     conclude(v, scene(), {});
     EXPECT_EQ(v.resolution, Resolution::undecided);
     EXPECT_TRUE(v.summary.starts_with("undecided: 2 members again")) << v.summary;
@@ -201,7 +205,8 @@ TEST(Verdict, OfANumberThatIsZeroInAllMembersIsNone) {
 
     Verification v;
     v.study.columns = {{"surface_time", "s", Kind::quantity, zeros}, {"loss", "J", Kind::quantity, own}};
-    v.methods = {"auto", "verner65"};
+    v.methods.resize(2);
+    v.methods[0].words = "auto", v.methods[1].words = "verner65";
     v.groups = {{"", std::vector<char>(400, 1)}};
     CheckedNumber loss = MadeUp({draws(100, 10, 1), first(draws(100, 10, 1), 40)}).checked();
     loss.column = 1;

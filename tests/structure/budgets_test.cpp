@@ -41,15 +41,15 @@ TEST(Budgets, OfLines) {
     EXPECT_LE(Layer("kernels").lines(), 19'971u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'198u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'932u);
-    EXPECT_LE(Layer("host").lines(), 32'430u);
-    EXPECT_LE(Layer("host/store").lines(), 4'570u);
+    EXPECT_LE(Layer("host").lines(), 31'631u);
+    EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
     EXPECT_LE(kernels.count(type).in_all, 400u);
-    EXPECT_LE(Layer("host").count(type).in_all, 379u);
+    EXPECT_LE(Layer("host").count(type).in_all, 376u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 46u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }

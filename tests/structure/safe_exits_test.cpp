@@ -36,7 +36,7 @@ TEST(SafeExits, WordsThatLetAUserRemoveFilesAreInOnePlace) {
     Pattern const words("\"[^\"]*" + of_need + "[^\"]*\""), anywhere(of_need);
     EXPECT_TRUE(words.match_in(R"(print("{}; {} is no longer needed");)"));
     EXPECT_TRUE(words.match_in(R"("give another name with -o, or remove the folder")"));
-    EXPECT_EQ(lines_with(words, {"host/store/finished_result.cpp"}, {": cannot remove the folder: "}), Lines{});
+    EXPECT_EQ(lines_with(words, {"host/store/shard_claim.cpp"}, {": cannot remove the folder: "}), Lines{});
     EXPECT_TRUE(anywhere.match_in("    The shards stay; remove the folder when they are no longer needed."));
     EXPECT_EQ(lines_with(anywhere, {}, {}, "python/slideway"), Lines{});
 }
@@ -59,7 +59,7 @@ TEST(SafeExits, OnlyOnePrinterWritesToTheStreams) {
 
 TEST(SafeExits, SignalsThatStopARunAreListedOnce) {
     Pattern const signals(R"(\bSIG(INT|TERM|HUP|QUIT|USR1|USR2|ALRM)\b)");
-    EXPECT_EQ(lines_with(signals, {"host/base/stop_signals.hpp"}), Lines{});
+    EXPECT_EQ(lines_with(signals, {"host/base/process.hpp"}), Lines{});
 }
 
 }  // namespace

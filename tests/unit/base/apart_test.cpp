@@ -1,4 +1,4 @@
-#include "host/base/apart.hpp"
+#include "host/base/process.hpp"
 
 #include <csignal>
 #include <cstdio>

@@ -5,7 +5,7 @@
 #include <csignal>
 
 #include "host/base/error.hpp"
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 #include "tests/support/output_fixture.hpp"
 
 #include <sys/stat.h>

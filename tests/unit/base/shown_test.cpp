@@ -1,5 +1,5 @@
 // Text of others on a terminal: nothing in it is obeyed.
-#include "host/base/shown.hpp"
+#include "host/base/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/chaos/cc_method.hpp"
+#include "host/chaos/delay_embedding.hpp"
 
 #include <algorithm>
 #include <cmath>

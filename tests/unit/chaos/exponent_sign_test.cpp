@@ -1,5 +1,5 @@
 // Signs of exponents from made-up records of growth: powers of time have none, whatever swings or scatters on top of them.
-#include "host/chaos/exponent_sign.hpp"
+#include "host/chaos/exponents.hpp"
 
 #include <cmath>
 #include <limits>

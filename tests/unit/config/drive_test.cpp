@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string>
 
-#include "host/config/drive.hpp"
-#include "host/config/scene.hpp"
 #include "host/config/descriptors.hpp"
+#include "host/config/loads.hpp"
+#include "host/config/scene.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "tests/support/scene_fixture.hpp"
 

@@ -1,5 +1,4 @@
 // Scenes that call quantities as earlier versions did.
-#include "host/config/former_names.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "host/config/descriptors.hpp"
+#include "host/config/document.hpp"
 #include "host/config/outputs.hpp"
-#include "host/config/scene_text.hpp"
 #include "tests/support/scene_fixture.hpp"
 
 namespace slideway::former_names_test {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/base/suggest.hpp"
+#include "host/base/text.hpp"
 #include "host/config/keys.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"

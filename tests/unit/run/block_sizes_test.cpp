@@ -1,4 +1,4 @@
-#include "host/run/block_sizes.hpp"
+#include "host/run/ensemble.hpp"
 
 #include <gtest/gtest.h>
 

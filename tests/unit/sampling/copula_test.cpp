@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
-#include "host/sampling/copula.hpp"
+#include "host/sampling/design.hpp"
 #include "tests/unit/sampling/samples.hpp"
 
 namespace slideway::copula_test {

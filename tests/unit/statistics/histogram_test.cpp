@@ -1,4 +1,4 @@
-#include "host/statistics/histogram.hpp"
+#include "host/statistics/summary.hpp"
 
 #include <cmath>
 #include <limits>

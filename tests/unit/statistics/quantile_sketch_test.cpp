@@ -1,4 +1,4 @@
-#include "host/statistics/quantile_sketch.hpp"
+#include "host/statistics/column_accumulator.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
-#include "host/store/statistics_merge.hpp"
+#include "host/store/block_statistics.hpp"
 #include "host/store/shard_writer.hpp"
 
 namespace slideway::block_statistics_test {

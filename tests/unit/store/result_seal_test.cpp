@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "host/store/provenance.hpp"
+#include "host/store/run_identity.hpp"
 #include "tests/support/output_fixture.hpp"
 
 namespace slideway::result_seal_test {

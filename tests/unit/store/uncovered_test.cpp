@@ -1,5 +1,5 @@
 // What a result holds that netCDF-4 shows to nobody.
-#include "host/store/uncovered.hpp"
+#include "host/store/result_seal.hpp"
 
 #include <array>
 

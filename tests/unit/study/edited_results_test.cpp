@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "host/base/error.hpp"
-#include "host/study/orbit_summary.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/series_file.hpp"
 #include "tests/support/output_fixture.hpp"

@@ -22,7 +22,7 @@ TEST_F(ReportOfRounding, ASaltelliDesignHasNoIndexOfRounding) {
     EXPECT_NEAR(force.indices.total[0].value, 0.8, 0.1);
     EXPECT_TRUE(line.why_none.starts_with("varies by 1.3e-13 s")) << line.why_none;
     for (auto const& of_input : {line.indices.first, line.indices.total}) {
-        for (IndexEstimate const& index : of_input) EXPECT_TRUE(std::isnan(index.value) && std::isnan(index.interval.low));
+        for (Estimate const& index : of_input) EXPECT_TRUE(std::isnan(index.value) && std::isnan(index.interval.low));
     }
     EXPECT_TRUE(std::isnan(line.indices.first_sum.value));
 
@@ -39,7 +39,7 @@ TEST_F(ReportOfRounding, ATableHasNoCorrelationOfRounding) {
     ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::table, 100));
     EXPECT_NEAR(report.correlations[0].ranks[0].value, 1, 1e-14);
     EXPECT_NE(report.correlations[1].why_none, "");
-    for (CorrelationEstimate const& rank : report.correlations[1].ranks) EXPECT_TRUE(std::isnan(rank.value));
+    for (Estimate const& rank : report.correlations[1].ranks) EXPECT_TRUE(std::isnan(rank.value));
     EXPECT_TRUE(std::isnan(report.correlations[1].regression.r_squared));
 }
 

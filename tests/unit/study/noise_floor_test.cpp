@@ -1,5 +1,5 @@
 // Which columns of members vary by no more than the error of their numbers.
-#include "host/study/noise_floor.hpp"
+#include "host/study/tolerance_report.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // When members stop: times of crank angles, numbers of stops and records, and where shadows start.
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/ensemble_plan.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -48,7 +48,7 @@ protected:
 /// with a standard error of 0.018 (Bonett and Wright 2000).
 void expect_equal_shares(ColumnCorrelations const& force) {
     ASSERT_EQ(force.members, 1024u);
-    for (CorrelationEstimate const& input : force.ranks) EXPECT_NEAR(input.value, 0.7, 0.06);
+    for (Estimate const& input : force.ranks) EXPECT_NEAR(input.value, 0.7, 0.06);
     for (double const coefficient : force.regression.coefficients) EXPECT_NEAR(coefficient, std::sqrt(0.5), 0.05);
     EXPECT_NEAR(force.regression.r_squared, 1, 1e-12);
 }
