@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "host/base/numbers.hpp"
@@ -60,6 +61,16 @@ double rate_from(GrowthLog const& log, std::size_t offset, std::size_t first, st
 std::size_t GrowthLog::intervals() const {
     auto const missing = std::ranges::find_if(values, [](double x) { return std::isnan(x); });
     return static_cast<std::size_t>(missing - values.begin()) / count;
+}
+
+std::vector<double> largest_first(std::span<double const> values, std::size_t count) {
+    GrowthLog const log{values, count};
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t j = 0; j < count; ++j) order.emplace_back(-sum_of(log, j, 0, log.intervals()), j);
+    std::ranges::sort(order);
+    std::vector<double> sorted;
+    for (std::size_t i = 0; i < values.size(); ++i) sorted.push_back(values[i - i % count + order[i % count].second]);
+    return sorted;
 }
 
 Exponents exponents_of(GrowthLog const& log) {

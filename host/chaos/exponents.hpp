@@ -21,6 +21,9 @@ struct GrowthLog {
     double at(std::size_t interval, std::size_t offset) const { return values[interval * count + offset]; }
 };
 
+/// The values of a log with the offset that grew most first: in a finite record that need not be the first.
+std::vector<double> largest_first(std::span<double const> values, std::size_t count);
+
 /// Means with the spread that their parts show.
 struct Exponents {
     std::vector<double> value;  // [count], Σ growth / time: finite-time exponents [1/s]; NaN without intervals

@@ -11,12 +11,11 @@
 namespace slideway {
 namespace {
 
-/// Sorted, and 0 where it is but rounding: an orbit at rest would have any dimension else.
+/// Exponents are 0 where they are but rounding: an orbit at rest would have any dimension else.
 double dimension(std::vector<double> exponents, double resolution) {
     for (double& exponent : exponents) {
         if (std::abs(exponent) < resolution) exponent = 0;
     }
-    std::sort(exponents.begin(), exponents.end(), std::greater<>());
     return kaplan_yorke_dimension(exponents);
 }
 
@@ -55,9 +54,8 @@ void ExponentTable::add(std::string name, std::string unit, std::string meaning,
 void ExponentTable::add_exponents() {
     std::vector<std::string> const along{"exponent"};
     using Numbers = std::vector<double>;
-    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along, [](Member const& m) { return m.exponents.value; });
-    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along,
-        [](Member const& m) { return m.exponents.standard_error; });
+    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, the largest first", along, [](Member const& m) { return m.exponents.value; });
+    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along, [](Member const& m) { return m.exponents.standard_error; });
     add("lyapunov_exponent_half_width", "s-1",
          "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included", along,
         [](Member const& m) {
@@ -117,8 +115,8 @@ ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_
     Inputs const& inputs = block.inputs[i];
     double spacing = schedule_.timing(inputs).period, turn = drive_period(parts_, inputs);
     std::size_t const per_member = schedule_.stops.growths() * exponents_;
-    GrowthLog log{block.growths.subspan(i * per_member, per_member), exponents_,
-                  spacing * static_cast<double>(schedule_.stops.growth_every)};
+    std::vector<double> growths = largest_first(block.growths.subspan(i * per_member, per_member), exponents_);
+    GrowthLog log{growths, exponents_, spacing * static_cast<double>(schedule_.stops.growth_every)};
     if (schedule_.by_turns) {
         // What lies between two angles counts as long as any other: as their mean.
         MemberRecord const& record = block.records[i];
@@ -130,7 +128,7 @@ ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_
     // Records that do not divide a turn have no period of its own.
     bool const divides = std::abs(per_turn - std::round(per_turn)) < 1e-6 * per_turn && per_turn >= 0.5;
     if (divides && per_turn < 1e9) log.period = static_cast<std::size_t>(std::round(per_turn));
-    return {log, exponents_of(log), least_distance / (d0_ * spacing), turn, block.records[i]};
+    return {std::move(growths), log, exponents_of(log), least_distance / (d0_ * spacing), turn, block.records[i]};
 }
 
 std::vector<double> ExponentTable::row(BlockResult const& block, std::size_t place) const {

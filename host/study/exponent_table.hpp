@@ -14,8 +14,7 @@ namespace slideway {
 
 /// Axes and columns: `lyapunov_exponent(member, exponent)`, its error, interval and resolution, that of the second half of the record, the
 /// running exponents along `history`, how often offsets left their range, and from two exponents on the Kaplan–Yorke dimension.
-/// The j-th exponent is that of the j-th shadow: QR sorts them in the limit, and sorting each member's would push near ones
-/// apart.  Empty without shadows.
+/// Of each member the largest exponent is the first, and what is along `exponent` goes with it.  Empty without shadows.
 class ExponentTable {
 public:
     explicit ExponentTable(Scene const& scene);
@@ -27,6 +26,7 @@ public:
 
 private:
     struct Member {
+        std::vector<double> growths;  // that the log shows
         GrowthLog log;
         Exponents exponents;
         double resolution;  // [1/s]

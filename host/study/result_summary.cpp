@@ -121,8 +121,7 @@ std::vector<char> finished_members(ResultView const& results) {
 }
 
 /// Column j of the rows of `width` numbers whose member finished.
-std::vector<double> finished_column(std::vector<double> const& values, std::vector<char> const& finished, std::size_t width,
-                              std::size_t j) {
+std::vector<double> finished_column(std::vector<double> const& values, std::vector<char> const& finished, std::size_t width, std::size_t j) {
     std::vector<double> column;
     for (std::size_t i = 0; i < finished.size(); ++i) {
         if (finished[i]) column.push_back(values[i * width + j]);
@@ -139,40 +138,34 @@ std::size_t exponents_of(ResultView const& results, char const* variable = "lyap
 }
 
 /// What a file has of the exponents of the members that finished.
-class StoredExponents {
-public:
+struct StoredExponents {
     explicit StoredExponents(ResultView const& results)
-        : finished_(finished_members(results)),
-          width_(exponents_of(results)),
-          value_(results.values("lyapunov_exponent", finished_.size() * width_)),
-          half_width_(results.values("lyapunov_exponent_half_width", finished_.size() * width_)),
-          late_(results.values("lyapunov_exponent_late", finished_.size() * width_)),
-          time_(results.values("lyapunov_time", finished_.size())),
-          resolution_(results.values("lyapunov_resolution", finished_.size())) {}
-
-    std::size_t width() const { return width_; }
+        : finished(finished_members(results)),
+          width(exponents_of(results)),
+          value(results.values("lyapunov_exponent", finished.size() * width)),
+          half_width(results.values("lyapunov_exponent_half_width", finished.size() * width)),
+          late(results.values("lyapunov_exponent_late", finished.size() * width)),
+          time(results.values("lyapunov_time", finished.size())),
+          resolution(results.values("lyapunov_resolution", finished.size())) {}
 
     /// Of exponent j, of the members from `first` to before `last`.
     std::vector<ExponentRecord> records(std::size_t j, std::size_t first, std::size_t last) const {
         std::vector<ExponentRecord> records;
         for (std::size_t i = first; i < last; ++i) {
-            std::size_t const at = i * width_ + j;
-            if (finished_[i]) records.push_back({value_[at], half_width_[at], late_[at], time_[i]});
+            std::size_t const at = i * width + j;
+            if (finished[i]) records.push_back({value[at], half_width[at], late[at], time[i]});
         }
         return records;
     }
     ExponentOfMembers over_members(std::size_t j, std::size_t first, std::size_t last) const {
         double largest = 0;
-        for (std::size_t i = first; i < last; ++i) {
-            if (finished_[i] && resolution_[i] > largest) largest = resolution_[i];
-        }
+        for (std::size_t i = first; i < last; ++i) largest = finished[i] ? std::max(largest, resolution[i]) : largest;
         return exponent_of_members(records(j, first, last), largest);
     }
 
-private:
-    std::vector<char> finished_;
-    std::size_t width_;
-    std::vector<double> value_, half_width_, late_, time_, resolution_;
+    std::vector<char> finished;  // [members]
+    std::size_t width;           // exponents of a member
+    std::vector<double> value, half_width, late, time, resolution;
 };
 
 }  // namespace
@@ -182,7 +175,7 @@ std::vector<ExponentSummary> summarise_exponents(ResultView const& results) {
     if (!results.has("lyapunov_exponent")) return summaries;
     StoredExponents const stored(results);
     std::size_t const members = results.values("status").size();
-    for (std::size_t j = 0; j < stored.width(); ++j) {
+    for (std::size_t j = 0; j < stored.width; ++j) {
         std::vector<double> values;
         for (ExponentRecord const& record : stored.records(j, 0, members)) values.push_back(record.rate);
         Summary const summary = summarise(values);
@@ -190,8 +183,6 @@ std::vector<ExponentSummary> summarise_exponents(ResultView const& results) {
         std::ranges::sort(values);
         summaries.push_back({stored.over_members(j, 0, members), summary, quantile(values, 0.05), quantile(values, 0.95)});
     }
-    std::stable_sort(summaries.begin(), summaries.end(),
-                     [](auto const& a, auto const& b) { return a.mean.mean > b.mean.mean; });
     return summaries;
 }
 

@@ -60,10 +60,10 @@ struct ExponentSummary : ExponentOfMembers {
     double low, high;  // 5 % and 95 % quantiles
 };
 
-/// The largest mean first; empty if the file holds none.
+/// The largest first; empty if the file holds none.
 std::vector<ExponentSummary> summarise_exponents(ResultView const& results);
 
-/// The first exponent as growth in a turn of the crank, over the members that finished; nothing if the file has none of cranks that turn freely.
+/// The largest exponent as growth in a turn of the crank, over the members that finished; nothing if the file has none of cranks that turn freely.
 std::optional<MeanOfMembers> growth_per_turn(ResultView const& results);
 
 /// Shares of the rescalings at which an offset had shrunk into rounding, or grown to the size of the joint.

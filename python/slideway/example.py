@@ -83,7 +83,7 @@ def example() -> xr.Dataset:
     spread = random.normal(0, 1, (members, 40, 1)) / np.arange(1, 41)[:, None]
     per_member: dict[str, tuple[np.ndarray, str, str]] = {
         "peak_normal_force": (random.lognormal(6.5, 0.4, members), "N", "largest sum of the normal forces"),
-        "lyapunov_exponent": (exponent, "s-1", "finite-time Lyapunov exponents, by shadows"),
+        "lyapunov_exponent": (exponent, "s-1", "finite-time Lyapunov exponents, the largest first"),
         "lyapunov_exponent_half_width": (np.full((members, 1), 30.0), "s-1", "half the width of the exponent's 95 % interval"),
         "lyapunov_exponent_late": (exponent.copy(), "s-1", "exponent of the second half of the record alone"),
         "lyapunov_time": (np.full(members, 4.0), "s", "time over which the exponents are taken"),

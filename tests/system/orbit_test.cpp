@@ -1,6 +1,8 @@
 // What holds of every study of orbits that a user runs, and exponents: numbers depend on nothing but the scene.
 #include "tests/system/orbits.hpp"
 
+#include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "host/backend/backend.hpp"
@@ -145,13 +147,14 @@ TEST_F(ExponentsOfARun, HaveTheirVariables) {
 }
 
 TEST_F(ExponentsOfARun, AreTheEndOfTheirHistory) {
-    // Of so short a run QR leaves some of ten out of order: each history must go with its own exponent.
+    // Of so short a run QR leaves some of ten out of order: they are sorted, and each history goes with its own exponent.
     for (std::size_t const count : {1u, 10u}) {
         ResultReader const file =
             results_of(lyapunov, {"--set", fmt::format("study.exponents={}", count), "--set", "study.history=7"});
         auto const exponents = file.values("lyapunov_exponent"), history = file.values("lyapunov_history");
         EXPECT_EQ(file.values("history").back(), 100);
         for (std::size_t i = 0; i < member_total; ++i) {
+            EXPECT_TRUE(std::ranges::is_sorted(std::span(exponents).subspan(count * i, count), std::ranges::greater())) << i;
             for (std::size_t j = 0; j < count; ++j) {
                 double const value = exponents[count * i + j];
                 EXPECT_NEAR(history[(7 * i + 6) * count + j], value, 1e-11 * (1 + std::abs(value))) << i << ' ' << j;

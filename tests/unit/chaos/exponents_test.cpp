@@ -38,6 +38,15 @@ TEST(Exponents, HaveTheErrorOfTheirBatches) {
     EXPECT_DOUBLE_EQ(exponents_of({values, 1, 0.5}).value[0], 2 * (48.0 + 20) / 17);
 }
 
+TEST(Exponents, AreSortedByTheWholeRecord) {
+    // Three offsets that grow by 2, 4 and 2 in two intervals; then the member failed.
+    std::vector<double> const values = {1, 3, -3, 1, 1, 5, nan, nan, nan};
+    auto const sorted = largest_first(values, 3);
+    ASSERT_EQ(sorted.size(), values.size());
+    EXPECT_EQ(std::vector<double>(sorted.begin(), sorted.begin() + 6), (std::vector<double>{3, 1, -3, 1, 1, 5})) << "equal ones as they come";
+    EXPECT_EQ((GrowthLog{sorted, 3, 1}.intervals()), 2u);
+}
+
 TEST(Exponents, EndWhereAMemberFailed) {
     std::vector<double> const values = {1, 2, 3, 4, nan, nan, nan, nan};
     GrowthLog const log{values, 2, 1};
