@@ -143,8 +143,7 @@ double way_to(double phase, double start) {
 }
 
 /// Rescalings to a record: a divisor of `rescalings` if there is one that leaves neither too few records nor too many.
-std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetitions = 1,
-                                  std::size_t records = least_records) {
+std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetitions = 1, std::size_t records = least_records) {
     std::size_t const all = rescalings * repetitions;
     std::size_t const most = std::clamp<std::size_t>(all / records, 1, rescalings);
     for (std::size_t n = most; n >= std::max<std::size_t>(1, all / most_records); --n) {
@@ -176,14 +175,23 @@ OrbitSchedule of_exponents(Scene const& scene) {
     return schedule;
 }
 
-/// Sections once a revolution, with rescalings at equal times between them if there are shadows.
+/// Sections until an end, the first one after `first` in (0, 1], all in revolutions.  Whole ones hold as many wherever they start.
+std::size_t sections_until(double end, double first) {
+    constexpr double rounding = 1e-9;
+    double const revolutions = std::round(end);
+    return whole(std::abs(end - revolutions) < rounding ? revolutions : std::floor(end - first + rounding) + 1);
+}
+
+/// Sections once a revolution, with rescalings at equal times between them if there are shadows: of the scene's own member those of the record.
 OrbitSchedule of_sections(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    double const turn = turn_length(scene);
-    std::size_t const per_turn =
-        chaos.exponents > 0 ? std::max<std::size_t>(1, whole(turn / chaos.dt.seconds(turn))) : 1;
-    std::size_t const transient = whole(std::ceil(chaos.transient.seconds(turn) / turn - 1e-9));
-    std::size_t const sections = std::max<std::size_t>(1, whole(chaos.span.seconds(turn) / turn));
+    double const turn = turn_length(scene), phase = chaos.section.level;
+    double const first = scene.goes_by_turns() ? way_to(phase, scene.inputs.start_angle) : first_time_at(phase, scene.parts, scene.inputs);
+    double const begin = chaos.transient.seconds(turn), end = begin + chaos.span.seconds(turn);
+    std::size_t const per_turn = chaos.exponents > 0 ? std::max<std::size_t>(1, whole(turn / chaos.dt.seconds(turn))) : 1;
+    std::size_t const transient = sections_until(begin / turn, first / turn);
+    std::size_t const least = chaos.exponents > 0 && transient == 0 ? 2 : 1;  // growth is that from section to section
+    std::size_t const sections = std::max(least, sections_until(end / turn, first / turn) - transient);
     OrbitSchedule schedule;
     schedule.sections = true;
     schedule.stops.transient = transient * per_turn;
@@ -196,12 +204,12 @@ OrbitSchedule of_sections(Scene const& scene) {
     }
     std::size_t const count = schedule.stops.count;
     if (scene.goes_by_turns()) {
-        schedule.timing = [phase = chaos.section.level, spacing = turn / static_cast<double>(per_turn), count, limit = scene.integrator.end_time](Inputs const& in) {
+        schedule.timing = [phase, spacing = turn / static_cast<double>(per_turn), count, limit = scene.integrator.end_time](Inputs const& in) {
             return by_turns(clock(way_to(phase, in.start_angle), spacing, count), way_to(in.start_angle, phase), limit);
         };
         return schedule;
     }
-    schedule.timing = [parts = scene.parts, phase = chaos.section.level, per_turn, count](Inputs const& inputs) {
+    schedule.timing = [parts = scene.parts, phase, per_turn, count](Inputs const& inputs) {
         double const spacing = drive_period(parts, inputs) / static_cast<double>(per_turn);
         return clock(first_time_at(phase, parts, inputs), spacing, count);
     };

@@ -120,17 +120,29 @@ TEST(OrbitSchedule, OfAPoincareSectionStopsOnceATurn) {
     EXPECT_EQ(schedule.end, clock.end);
 }
 
-TEST(OrbitSchedule, RoundsATransientUpAndASpanToTheNearestTurn) {
-    auto const stops = [](std::string const& lines) { return orbit_schedule(study("poincare", lines)).stops; };
-    EXPECT_EQ(stops("transient_revolutions = 0\nrevolutions = 1\n").count, 1u);
-    EXPECT_EQ(stops("transient_revolutions = 1.5\nrevolutions = 3\n").transient, 2u);
-    EXPECT_EQ(stops("Ttr = 6.3\nrevolutions = 3\n").transient, 3u);  // 2.005 turns
-    EXPECT_EQ(stops("transient_revolutions = 0\nduration = 6.3\n").sections(), 2u);
-    EXPECT_EQ(stops("transient_revolutions = 0\nduration = 0.1\n").sections(), 1u);
-    // Rounding of the turn makes no turn more.
-    for (int turns = 0; turns < 400; ++turns) {
-        EXPECT_EQ(stops(fmt::format("transient_revolutions = {}\nrevolutions = 3\n", turns)).transient,
-                  static_cast<std::size_t>(turns));
+TEST(OrbitSchedule, HasTheSectionsOfTheRecordAndOneAtLeast) {
+    using Counts = std::pair<std::size_t, std::size_t>;  // left out, and recorded
+    auto const counts = [](std::string const& drive, std::string const& lines) {
+        StopPlan const stops = orbit_schedule(scene_of("schema = 1\n[mechanism]\nstart_angle = 1.7\n" + drive + "[study]\nkind = \"poincare\"\n" + lines)).stops;
+        return Counts{stops.transient / stops.section_every, stops.sections()};
+    };
+    // Of 30 rad/s, T = 0.2094 s: sections at 0.1528, 0.3622, 0.5717 and 0.7811 s, or after 0.729, 1.729 … turns.
+    std::string const clock = "crank_speed = 30\n", turns = clock + "[drive]\nkind = \"torque\"\ntorque = 1.0\n", limit = "time_limit = 9\n";
+    EXPECT_EQ(counts(clock, "Ttr = 0.1\nduration = 0.5\n"), Counts(0, 3));
+    EXPECT_EQ(counts(clock, "Ttr = 0.1\nduration = 0.56\n"), Counts(0, 3));
+    EXPECT_EQ(counts(clock, "Ttr = 0.2\nduration = 0.6\n"), Counts(1, 3));
+    EXPECT_EQ(counts(clock, "Ttr = 0.16\nduration = 0.1\n"), Counts(1, 1)) << "none in the record: the next";
+    for (auto const& [drive, more] : {std::pair(clock, std::string()), std::pair(turns, limit)}) {
+        EXPECT_EQ(counts(drive, more + "transient_revolutions = 0.5\nrevolutions = 2.4\n"), Counts(0, 3));
+        EXPECT_EQ(counts(drive, more + "transient_revolutions = 0.75\nrevolutions = 2.4\n"), Counts(1, 2));
+        EXPECT_EQ(counts(drive, more + "transient_revolutions = 0.75\nrevolutions = 3\n"), Counts(1, 3));
+        // Of whole turns rounding makes none more, wherever the first section is: here, at the start, and a hair from either.
+        for (std::string const phase : {"0", "1.7", "1.7000001", "1.6999999"}) {
+            for (std::size_t n = 0; n < 400; ++n) {
+                std::string const lines = fmt::format("{}phase = {}\ntransient_revolutions = {}\nrevolutions = {}\n", more, phase, n, 401 - n);
+                EXPECT_EQ(counts(drive, lines), Counts(n, 401 - n)) << phase;
+            }
+        }
     }
 }
 
@@ -206,6 +218,18 @@ TEST(OrbitSchedule, OfASweepWithExponentsRescalesBetweenItsSections) {
                                   .timing(crank(2));
     EXPECT_EQ(clock.first_stop, plain.first_stop);
     EXPECT_NEAR(clock.end, plain.end, 1e-14 * plain.end);
+}
+
+TEST(OrbitSchedule, OfASweepWithExponentsHasTheSectionsOfTheRecordAndGrowth) {
+    auto const stops = [](std::string const& lines) { return orbit_schedule(sweep("phase = 5.0\nexponents = 1\nrescalings_per_revolution = 50\n" + lines)).stops; };
+    // Sections after 0.796, 1.796 … turns.
+    StopPlan const some = stops("transient_revolutions = 0.5\nrevolutions = 3\n"), few = stops("transient_revolutions = 0.5\nrevolutions = 1\n");
+    EXPECT_EQ(some.transient, 0u);
+    EXPECT_EQ(some.sections(), 3u);
+    EXPECT_EQ(some.growths() * some.growth_every, 100u);
+    EXPECT_EQ(few.sections(), 2u) << "one has no growth from section to section";
+    EXPECT_EQ(few.growths() * few.growth_every, 50u);
+    EXPECT_EQ(stops("transient_revolutions = 0.9\nrevolutions = 1\n").sections(), 1u);
 }
 
 TEST(OrbitSchedule, OfCrossingsHasASpanAndNoStops) {
