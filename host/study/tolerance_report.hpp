@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/config/scene.hpp"
@@ -166,12 +167,12 @@ std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& membe
 /// left is their rounding, and has no size of its own to be compared with.
 double least_energy(Scene const& scene);
 
-/// Error of a column's numbers, in its unit: 1e-6, the default tolerance, of the largest magnitude.  Of energies at least that share of a fall
-/// through the clearance.
-double error_of_column(QuantityColumn const& column, std::span<double const> values, Scene const& scene);
+/// What a number with this unit is on the scale of the joint: of a fall through its clearance; 0 of units that this says nothing of.
+double natural_scale(std::string_view unit, Scene const& scene);
 
-/// Why sensitivities of a column would be those of rounding: its standard deviation is no more than its numbers' error, or it is that
-/// error (the energy residual of a law that makes no energy).  "" where it varies by more, or is not finite.
+/// Why sensitivities of a column would be those of rounding: its standard deviation is no more than its numbers' error (1e-6, the default
+/// tolerance, of the largest magnitude, at least of the natural scale), or it is the integration's error (the energy residual of a law that
+/// makes no energy).  "" where it varies by more, or is not finite.
 /// @param values of members; NaN are left out
 std::string why_no_sensitivity(QuantityColumn const& column, std::span<double const> values, Scene const& scene);
 

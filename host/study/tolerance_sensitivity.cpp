@@ -9,8 +9,10 @@
 #include "host/sampling/random.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/result_layout.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
+#include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
 namespace {
@@ -165,10 +167,18 @@ constexpr double relative_error = 1e-6;  // the default rtol
 
 double least_energy(Scene const& scene) { return relative_error * fall_energy(scene); }
 
-double error_of_column(QuantityColumn const& column, std::span<double const> values, Scene const& scene) {
-    double scale = column.unit == "J" ? fall_energy(scene) : 0;
-    for (double const x : values) scale = std::fmax(scale, std::abs(x));
-    return relative_error * scale;
+double natural_scale(std::string_view unit, Scene const& scene) {
+    Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
+    double const clearance = std::max(play_y(in), play_z(in)), energy = fall_energy(scene), speed = std::sqrt(energy / in.slider_mass);
+    if (unit == "s") return orbit_schedule(scene).end;
+    if (unit == "J" || unit == "N m") return energy;
+    if (unit == "m") return clearance;
+    if (unit == "rad") return clearance / in.slider_length;
+    if (unit == "N") return energy / clearance;
+    if (unit == "m/s" || unit == "m s-1") return speed;
+    if (unit == "rad/s" || unit == "rad s-1") return speed / in.slider_length;
+    if (unit == "m/s2" || unit == "m s-2") return energy / (clearance * in.slider_mass);
+    return 0;
 }
 
 std::string why_no_sensitivity(QuantityColumn const& column, std::span<double const> values, Scene const& scene) {
@@ -176,7 +186,7 @@ std::string why_no_sensitivity(QuantityColumn const& column, std::span<double co
     if (summary.count < 2) return "";
     if (summary.min == summary.max) return "does not vary";
     if (column.quantity == "energy_residual" && !makes_energy(scene.parts)) return "is the integration's error";
-    double const error = error_of_column(column, values, scene);
+    double const error = relative_error * std::max({std::abs(summary.min), std::abs(summary.max), natural_scale(column.unit, scene)});
     if (!(summary.sd <= error)) return "";
     std::string const unit = column.unit == "1" ? "" : " " + column.unit;
     return fmt::format("varies by {:.2g}{}, no more than its error of {:.2g}{}", summary.sd, unit, error, unit);

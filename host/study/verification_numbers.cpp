@@ -6,6 +6,7 @@
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/study/ensemble_plan.hpp"
+#include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
@@ -21,20 +22,6 @@ constexpr double most_skewed = 3;        // of numbers whose mean is made by man
 constexpr double most_energy = 0.01;     // made a period of the drive, of what that fall gives
 constexpr double felt = 1e-4;  // of what a fall through the clearance comes to: of smaller differences nobody is warned
 constexpr double of_rounding = 1e-9; // of what a fall through the clearance comes to: numbers that are 0 but for that
-
-/// What a number with this unit is on the scale of the joint: of a fall through its clearance.
-double natural_scale(std::string const& unit, Scene const& scene) {
-    Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
-    double const clearance = std::max(play_y(in), play_z(in)), energy = fall_energy(scene);
-    if (unit == "s") return orbit_schedule(scene).end;
-    if (unit == "J") return energy;
-    if (unit == "m") return clearance;
-    if (unit == "rad") return clearance / in.slider_length;
-    if (unit == "N") return energy / clearance;
-    if (unit == "m/s" || unit == "m s-1") return std::sqrt(energy / in.slider_mass);
-    if (unit == "m/s2" || unit == "m s-2") return energy / (clearance * in.slider_mass);
-    return 0;
-}
 
 bool is_certain(double mean, double half_width) { return std::abs(mean) > half_width; }
 

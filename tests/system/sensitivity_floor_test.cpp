@@ -72,6 +72,31 @@ TEST_F(SensitivityFloor, OfDrawsLeavesNoCorrelation) {
     EXPECT_NE(text.find("friction_loss   - varies by"), std::string::npos) << text;
 }
 
+/// A slider that falls flat onto one face turns by rounding alone, which follows from what varies.
+TEST_F(SensitivityFloor, OfTiltsMadeOfRoundingLeavesNone) {
+    write("t.toml", R"(
+schema = 1
+[contact]
+law = "conservative"
+restitution = 0.5
+[study]
+kind = "tolerance"
+members = 64
+verify = 0
+duration = "5 ms"
+quantities = ["peak_tilt", "rms_acceleration"]
+vary = { "initial.y" = { dist = "unif", low = -5e-5, high = 5e-5 } }
+)");
+    Outcome const outcome = run({"run", "t.toml", "--no-progress", "--json", "--force", "-o", "t.nc"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    for (Json const& column : Json::parse(outcome.out)["tolerance"]["sensitivity"]) {
+        std::string const name = column["name"];
+        bool const rounding = name.starts_with("peak_tilt") || name == "rms_acceleration[z]";
+        EXPECT_EQ(column["without"].is_string(), rounding) << column;
+        for (Json const& input : column["inputs"]) EXPECT_EQ(input["rank_correlation"]["value"].is_null(), rounding) << input;
+    }
+}
+
 TEST_F(SensitivityFloor, OfEnergyMadeLeavesNone) {
     write("w.toml", R"(
 schema = 1

@@ -34,13 +34,23 @@ std::vector<double> alternating(double mean, double amplitude, std::size_t count
     return values;
 }
 
-TEST(NoiseFloor, IsAMillionthOfTheLargestNumber) {
+TEST(NoiseFloor, IsAMillionthOfTheLargestNumberOrOfAFall) {
     QuantityColumn const force = named("peak_normal_force", "N");
     EXPECT_EQ(why_no_sensitivity(force, std::vector<double>(9, 3.25), falling()), "does not vary");
     EXPECT_NE(why_no_sensitivity(force, alternating(3, 1e-12), falling()), "");
     EXPECT_NE(why_no_sensitivity(force, alternating(3, 2.9e-6), falling()), "");
     EXPECT_EQ(why_no_sensitivity(force, alternating(3, 3.1e-6), falling()), "");
-    EXPECT_EQ(why_no_sensitivity(force, alternating(0, 1e-15), falling()), "") << "nothing says what size a force has";
+    // Numbers that are 0 but for rounding; of a fall through 1 mm 0.982 N, 9.82 m/s², 0.1 m/s, and angles by the length of the slider.
+    double const length = falling().inputs.slider_length, speed = std::sqrt(9.81987e-3);
+    struct Unit { char const* name; double floor; };
+    for (Unit const& unit : {Unit{"N", 9.81987e-7}, {"N m", 9.81987e-10}, {"m", 1e-9}, {"rad", 1e-9 / length}, {"m s-1", 1e-6 * speed}, {"rad s-1", 1e-6 * speed / length},
+                             {"m s-2", 9.81987e-6}, {"s", 1e-6}}) {
+        QuantityColumn const column = named("peak", unit.name);
+        EXPECT_NE(why_no_sensitivity(column, alternating(0, 1e-17), falling()), "") << unit.name;
+        EXPECT_NE(why_no_sensitivity(column, alternating(0, 0.99 * unit.floor), falling()), "") << unit.name;
+        EXPECT_EQ(why_no_sensitivity(column, alternating(0, 1.01 * unit.floor), falling()), "") << unit.name;
+    }
+    EXPECT_EQ(why_no_sensitivity(named("load", "Pa"), alternating(0, 1e-15), falling()), "") << "nothing says what size it has";
     EXPECT_EQ(why_no_sensitivity(named("contact_onsets", "1"), alternating(19, 1), falling()), "");
 }
 
