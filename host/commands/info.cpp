@@ -5,6 +5,7 @@
 #include "host/commands/text.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
+#include "host/study/stored_state.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"
 
@@ -15,10 +16,10 @@ namespace {
 /// The report of a result whose scene has one.
 std::optional<ToleranceReport> report_of(ResultReader const& results) {
     try {
-        Scene const scene = parse_scene(results.attribute("scene"), results.path());
+        Scene const scene = stored_scene(results);
         if (asks_for_report(scene)) return tolerance_report(results, scene);
     } catch (SceneError const& error) {
-        // Of another version, or its table of members or a module is elsewhere.
+        // Of another version, or a module or a table of a load is elsewhere.
         tell("warning: {}; without it there are no intervals, yields, correlations and shares of variance below\n", error.what());
     }
     return {};

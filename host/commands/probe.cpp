@@ -38,7 +38,7 @@ Probed probed_of_result(ProbeArguments const& arguments) {
     std::string const& path = arguments.scene.path;
     require_intact(path);
     ResultReader const results(path);
-    Probed probed{parse_scene(results.attribute("scene"), path, arguments.scene.overrides), {}, {}};
+    Probed probed{stored_scene(results, arguments.scene.overrides), {}, {}};
     if (!arguments.table.empty()) {
         probed.table = read_state_table(*input_stream(arguments.table), arguments.table, probed.scene);
         return probed;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <istream>
 #include <limits>
 #include <numbers>
@@ -12,10 +13,12 @@
 
 #include "host/base/csv.hpp"
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/base/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/units.hpp"
 #include "host/store/result_layout.hpp"
+#include "host/store/run_identity.hpp"
 #include "host/study/series_file.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/members/start.hpp"
@@ -342,7 +345,43 @@ private:
     StoredState nearest_{};
 };
 
+/// A table of `rows` with the inputs that the members have of it; of no columns where they are not stored.
+std::string table_of_members(ResultView const& results, std::string const& scene, std::size_t rows) {
+    std::vector<std::string> lines(rows + 1);
+    std::vector<double> const numbers = results.values("member"), statuses = results.values("status", numbers.size());
+    for (std::string const& name : results.variable_names()) {
+        std::string const key = results.attribute_of(name, "key");
+        if (key.empty() || scene.find(fmt::format("\n\"{}\" = ", key)) != scene.npos) continue;  // [study.vary] has it
+        std::vector<double> const values = results.values(name, numbers.size());
+        std::vector<double> column(rows, nan);
+        double any = nan;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            Status const status = status_of(statuses[i]);
+            if (status == Status::not_run || status == Status::invalid_inputs || count_of(numbers[i]) >= rows) continue;
+            any = column[count_of(numbers[i])] = values[i];
+        }
+        if (std::isnan(any)) continue;
+        std::ranges::replace_if(column, [](double x) { return std::isnan(x); }, any);  // of members that did not run nothing is asked
+        char const* const separator = lines[0].empty() ? "" : ",";
+        lines[0] += separator + key;
+        for (std::size_t row = 0; row < rows; ++row) lines[row + 1] += fmt::format("{}{}", separator, column[row]);
+    }
+    return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
 }  // namespace
+
+Scene stored_scene(ResultView const& results, Overrides overrides) {
+    std::string const text = results.attribute("scene"), key = "study.table", given = "members of this result";
+    OfTables const tables = contents_of_tables(text);
+    Scene own;
+    if (auto const content = tables.find(key); content != tables.end() && results.stores_members() && results.attribute("sweep_parameter").empty()) {
+        std::string table = table_of_members(results, text, std::strtoull(content->second.c_str(), nullptr, 10));
+        own.tables.push_back({key, given, results.path(), results.path(), std::make_shared<std::string const>(std::move(table)), 0});
+        overrides.emplace(overrides.begin(), key, given);
+    }
+    return parse_scene(text, results.path(), overrides, &own);
+}
 
 StoredState stored_state(ResultView const& results, Mechanism mechanism, std::optional<std::uint64_t> member, std::optional<double> time) {
     if (!results.stores_members()) {

@@ -53,6 +53,9 @@ struct StoredState {
 /// @throws SceneError if there is no such member, or no state of it
 StoredState stored_state(ResultView const& results, Mechanism mechanism, std::optional<std::uint64_t> member, std::optional<double> time);
 
+/// The scene of a result, whose members have the inputs that it stores, whatever has become of the file of their table.  @throws SceneError
+Scene stored_scene(ResultView const& results, Overrides overrides = {});
+
 /// Gives the inputs of the result's scene the numbers with which a member ran.
 void take_member(Scene& scene, ResultView const& results, std::uint64_t member);
 

@@ -86,6 +86,16 @@ def test_rigid_states_are_drawn_without_forces(program: str) -> None:
     assert [text.get_text() for text in slideway.plot.apex_forces(found).texts] == ["forces are not told"]
 
 
+def test_members_with_inputs_of_ones_own_are_explained_and_named(program: str) -> None:
+    scene = {"schema": 1, "contact": {"law": "conservative"}, "study": {"duration": "1 ms", "samples": 3, "members": 1}}
+    result = slideway.Ensemble(scene).run(inputs={"initial.y": [0.0, 1e-5, 2e-5], "joint.clearance": [1e-4, -1.0, 2e-4]})
+    found = slideway.explain(result, member=2)
+    assert found.state["y"] == float(result.final_y[2])
+    assert found.sizes == slideway.explain(slideway.run(scene, progress=False, joint__clearance=2e-4, initial__y=2e-5)).sizes
+    with pytest.raises(slideway.SceneError, match=r'study.table is "" \(no file has this name; members of Ensemble.run\(inputs=...\) are of none\)'):
+        slideway.run(slideway.scene(result), progress=False)
+
+
 def test_what_cannot_be_explained_is_said(result_of: Result) -> None:
     with pytest.raises(slideway.SceneError, match="has no member 9999; it has 0 to 63"):
         slideway.explain(result_of("ensemble"), member=9999)

@@ -1,6 +1,8 @@
 // Studies of a table of members, moved and merged where the table is out of reach.
 #include <algorithm>
 
+#include <fmt/ranges.h>
+
 #include "host/store/result_view.hpp"
 #include "tests/system/process.hpp"
 
@@ -75,6 +77,30 @@ TEST_F(TableRun, GoesOnWhereItsFolderWasMoved) {
     EXPECT_EQ(run_in("c", {"--resume"}).code, 0);
     Outcome const complete = run({"run", "c/s.toml", "-o", "c/s.nc", "--resume"});
     EXPECT_EQ(complete.err, "resuming: c/s.nc is complete already\n");
+}
+
+/// A result has its members' inputs: nothing is asked of the table, which may have other columns since, or be shorter, or gone.
+TEST_F(TableRun, IsToldByItsResultAlone) {
+    std::string const study = "[study]\nkind = \"tolerance\"\nverify = 0\nquantities = [\"peak_normal_force\", \"peak_tilt\"]\n";
+    std::string text = scene;
+    write("a/s.toml", text.replace(text.find("samples = 3\n"), 12, "").replace(text.find("[study]\n"), 8, study) +
+                          "vary = { \"initial.z\" = { dist = \"unif\", low = 0, high = 1e-5 } }\nlimits = { peak_normal_force = { max = 1e9 } }\n");
+    ASSERT_EQ(run_in("a").code, 0);
+    std::vector<std::string> const info{"info", "a/s.nc"}, probe{"probe", "a/s.nc", "--member", "3"};
+    Outcome const told = run(info), state = run(probe);
+    for (char const* const part : {"Yield, of 16 members", "initial.y", "initial.z"}) EXPECT_NE(told.out.find(part), std::string::npos) << told.out;
+    EXPECT_EQ(state.code, 0) << state.err;
+    auto const expect_same = [&](char const* what) {
+        EXPECT_EQ(run(info).out, told.out) << what;
+        EXPECT_EQ(run(info).err, "") << what;
+        EXPECT_EQ(run(probe).out, state.out) << what;
+    };
+    write("a/rows.csv", "initial.vx,initial.vy\n" + fmt::format("{}", fmt::join(std::vector<std::string>(16, "0.1,0\n"), "")));
+    expect_same("other columns");
+    write("a/rows.csv", "initial.y\n0\n");
+    expect_same("fewer rows");
+    fs::remove(path("a/rows.csv"));
+    expect_same("no table");
 }
 
 TEST_F(TableRun, IsMergedWithoutTheTable) {
