@@ -5,7 +5,7 @@
 #include "host/commands/text.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
-#include "host/study/stored_state.hpp"
+#include "host/study/state_table.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"
 

@@ -31,6 +31,11 @@ struct Start {
     double deepest() const { return std::max(depth(), into_stops); }
     bool is_inside() const { return deepest() > deepest_start * play; }
     bool is_nowhere() const { return at.status != Status::finished; }
+    /// Rigid contacts have no state inside the way; else the rod does not reach.
+    std::string why_nowhere(Scene const& scene) const {
+        bool const inside = scene.parts.rigid && at.status == Status::geometry && depth() > 1e-6 * play;
+        return fmt::format("({}{})", name_of(at.status), inside ? fmt::format(": with rigid contacts it may not begin inside the way, by {:.3g} mm", 1e3 * depth()) : "");
+    }
 };
 
 /// The members that are looked at.
@@ -107,7 +112,7 @@ std::optional<std::string> broken_row(Scene const& scene, std::vector<Start> con
     for (Start const& start : starts) {
         if (!start.is_inside() && !start.is_nowhere()) continue;
         std::string const where = place_of_row(scene, start.member);
-        if (start.is_nowhere()) return fmt::format("{}: its mechanism cannot be evaluated at the start ({})", where, name_of(start.at.status));
+        if (start.is_nowhere()) return fmt::format("{}: its mechanism cannot be evaluated at the start {}", where, start.why_nowhere(scene));
         return fmt::format("{}: its member starts {}: {}", where, deep(start), depth_text(start));
     }
     return {};
@@ -117,13 +122,13 @@ std::optional<std::string> broken_draws(Scene const& scene, std::vector<Start> c
     std::uint64_t const all = member_count(scene);
     auto const nowhere = static_cast<std::uint64_t>(std::ranges::count_if(starts, &Start::is_nowhere));
     if (!starts.empty() && nowhere == starts.size()) {
-        return fmt::format("{} be evaluated at the start ({})", all == 1 ? "its mechanism cannot" : "no member can", name_of(starts.front().at.status));
+        return fmt::format("{} be evaluated at the start {}", all == 1 ? "its mechanism cannot" : "no member can", starts.front().why_nowhere(scene));
     }
     auto const inside = std::ranges::count_if(starts, &Start::is_inside);
     // The values of a sweep are given, not drawn.
     if (scene.study == StudyKind::sweep && nowhere > 0) {
         Start const& first = *std::ranges::find_if(starts, &Start::is_nowhere);
-        return fmt::format("member {} cannot be evaluated at the start ({})", first.member, name_of(first.at.status));
+        return fmt::format("member {} cannot be evaluated at the start {}", first.member, first.why_nowhere(scene));
     }
     if (inside == 0) return {};
     auto const deeper = [](Start const& a, Start const& b) { return (a.is_inside() ? a.deepest() : 0) < (b.is_inside() ? b.deepest() : 0); };

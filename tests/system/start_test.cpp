@@ -99,6 +99,20 @@ TEST_F(Starts, OfRowsAreRefusedAtTheirLine) {
     }
 }
 
+/// A way that is tilted leaves the slider as it was, whose apices are then inside: 0.7 mm at one end, in a clearance of 0.1 mm.
+TEST_F(Starts, OfRigidSlidersInsideTheWaySaySo) {
+    std::string const rigid = "schema = 1\n[mechanism]\nkind = \"scotch_yoke\"\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n[way]\npitch = 0.01\n"
+                              "[initial]\ny = -1e-4\n[study]\nduration = \"1 us\"\n";
+    std::string const words = "cannot be evaluated at the start (geometry: with rigid contacts it may not begin inside the way, by 0.699 mm); change ";
+    write("rigid.toml", rigid);
+    write("rows.toml", rigid + "design = \"table\"\ntable = \"rows.csv\"\n");
+    write("rows.csv", "initial.vy\n0\n");
+    for (char const* const command : {"check", "run"}) {
+        expect_refusal(2, "rigid.toml: its mechanism " + words + "[initial]", {command, "rigid.toml"});
+        expect_refusal(2, "rows.csv:2: its mechanism " + words + "the row", {command, "rows.toml"});
+    }
+}
+
 TEST_F(Starts, ThatNoMemberHasAreRefused) {
     for (char const* const command : {"check", "run"}) expect_refusal(2, "s.toml: no member can be evaluated at the start (geometry)", {command, "s.toml", "--set", "initial.z=10"});
 }
