@@ -18,7 +18,7 @@ template <class Model, class Real> struct ShadowOffset {
         int const n = pack.states();
         for (int i = 0; i < n; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
         if constexpr (has_speeds) {
-            Real const scale = speed_scale(pack);
+            Real const scale = Model::touch_speed(s.constants.parameters);
             for (int i = n; i < width; ++i) {
                 Real const apart = (numbers(shadow.contacts.memory)[i - n] - numbers(s.contacts.memory)[i - n]) / scale;
                 w[i] = select(both_touch(pack, shadow, i - n), apart, Real(0.0));
@@ -33,7 +33,7 @@ template <class Model, class Real> struct ShadowOffset {
             shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
         }
         if constexpr (has_speeds) {
-            Real const scale = length * speed_scale(pack);
+            Real const scale = length * Model::touch_speed(s.constants.parameters);
             for (int i = n; i < width; ++i) {
                 Real& number = numbers(shadow.contacts.memory)[i - n];
                 Real const own = numbers(s.contacts.memory)[i - n];
@@ -57,11 +57,6 @@ template <class Model, class Real> struct ShadowOffset {
 
 private:
     static constexpr bool has_speeds = Memory::speeds > 0;
-    /// What velocities are measured in [m/s].
-    SLIDEWAY_FN static Real speed_scale(Pack<Model, Real> const& pack) {
-        auto const& p = pack.state.constants.parameters;
-        return Model::touch_scale(p) * p.rate_scale;
-    }
     SLIDEWAY_FN static Mask<Real> both_touch(Pack<Model, Real> const& pack, Shadow const& shadow, int pair) {
         Real const zero(0.0);
         return (pack.state.contacts.watch.start_depth(pair) > zero) & (shadow.contacts.watch.start_depth(pair) > zero);

@@ -72,28 +72,17 @@ template <class... Laws> struct AnyLaw {
         visit([&]<class One>(One) { f = One::stiffness(m, face, contact); });
         return f;
     }
-    SLIDEWAY_FN bool couples() const {
-        bool answer = false;
-        visit([&]<class One>(One) { answer = One::couples(); });
-        return answer;
-    }
-    SLIDEWAY_FN bool of_touching_alone() const {
-        bool answer = false;
-        visit([&]<class One>(One) { answer = One::of_touching_alone(); });
-        return answer;
-    }
-    SLIDEWAY_FN bool continuous() const {
-        bool answer = false;
-        visit([&]<class One>(One) { answer = One::continuous(); });
-        return answer;
-    }
-    SLIDEWAY_FN bool ends_steps() const {
-        bool answer = false;
-        visit([&]<class One>(One) { answer = One::ends_steps(); });
-        return answer;
-    }
+    SLIDEWAY_FN bool couples() const { return said([]<class One>(One) { return One::couples(); }); }
+    SLIDEWAY_FN bool of_touching_alone() const { return said([]<class One>(One) { return One::of_touching_alone(); }); }
+    SLIDEWAY_FN bool continuous() const { return said([]<class One>(One) { return One::continuous(); }); }
+    SLIDEWAY_FN bool ends_steps() const { return said([]<class One>(One) { return One::ends_steps(); }); }
 
 private:
+    template <class Of> SLIDEWAY_FN bool said(Of const& of) const {
+        bool answer = false;
+        visit([&]<class One>(One one) { answer = of(one); });
+        return answer;
+    }
     /// Calls the function with the `OneLaw` that is chosen.
     template <class Function> SLIDEWAY_FN void visit(Function const& function) const {
         int place = 0;

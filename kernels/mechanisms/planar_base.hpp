@@ -53,9 +53,10 @@ struct PlanarBase {
 
     /// Energy of the slider at the scale of its velocity, M (c ω)² [J], against which the audit's absolute tolerance is meant.
     template <class Real> SLIDEWAY_FN static Real energy_scale(PlanarParameters<Real> const& p) {
-        Real const speed = p.clearance * p.rate_scale;
+        Real const speed = touch_speed(p);
         return p.slider_mass * speed * speed;
     }
+    template <class Real> SLIDEWAY_FN static Real touch_speed(PlanarParameters<Real> const& p) { return p.clearance * p.rate_scale; }
 
     /// Length [m] against which the tolerance of a located touch is meant.
     template <class Real> SLIDEWAY_FN static Real touch_scale(PlanarParameters<Real> const& p) { return p.clearance; }

@@ -35,8 +35,12 @@ struct SliderBase {
 
     /// Energy of the slider at the scale of its velocity, M (c ω)² [J], against which the audit's absolute tolerance is meant.
     template <class Real> SLIDEWAY_FN static Real energy_scale(SliderParameters<Real> const& p) {
-        Real const speed = max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
+        Real const speed = touch_speed(p);
         return p.slider_mass * speed * speed;
+    }
+    /// Speed [m/s] that those of touches are measured in.
+    template <class Real> SLIDEWAY_FN static Real touch_speed(SliderParameters<Real> const& p) {
+        return max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
     }
 
     /// Length [m] against which the tolerance of a located touch is meant.
@@ -92,7 +96,7 @@ struct FreeSliderBase : SliderBase {
         p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(play_y(in), play_z(in))), 1.0);
         return p;
     }
-    SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) { return max(p.length_scale_y, p.length_scale_z) * p.rate_scale; }
+    SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) { return touch_speed(p); }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         SliderBase::initial_state(in, s);
