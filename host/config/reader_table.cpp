@@ -207,7 +207,7 @@ TableFile read_table_file(Reading& reading, Node const& node) {
     constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
     Scene& scene = reading.scene;
     std::string const& given = read_text_value(node);
-    if (given.empty()) refuse(node, {"no file has this name; members of Ensemble.run(inputs=...) are of none", "name a file, or give their inputs again"});
+    if (given.empty()) refuse(node, {"no file has this name; members of Ensemble.run(inputs=...) are of none", "name a file, or run one of them by slideway.scene(result, member=K)"});
     for (Scene const* const from : {static_cast<Scene const*>(&scene), reading.former}) {
         if (from == nullptr) continue;
         auto const known = std::ranges::find(from->tables, given, &TableFile::given);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <map>
-#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

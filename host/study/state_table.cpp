@@ -19,6 +19,8 @@
 #include "host/config/units.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/run_identity.hpp"
+#include "host/study/result_summary.hpp"
+#include "host/store/run_identity.hpp"
 #include "host/study/series_file.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/members/start.hpp"
@@ -377,8 +379,10 @@ Scene stored_scene(ResultView const& results, Overrides overrides) {
     Scene own;
     if (auto const content = tables.find(key); content != tables.end() && results.stores_members() && results.attribute("sweep_parameter").empty()) {
         std::string table = table_of_members(results, text, std::strtoull(content->second.c_str(), nullptr, 10));
-        own.tables.push_back({key, given, results.path(), results.path(), std::make_shared<std::string const>(std::move(table)), 0});
-        overrides.emplace(overrides.begin(), key, given);
+        if (!table.starts_with('\n')) {  // files without the attribute have none of its columns
+            own.tables.push_back({key, given, results.path(), results.path(), std::make_shared<std::string const>(std::move(table)), 0});
+            overrides.emplace(overrides.begin(), key, given);
+        }
     }
     return parse_scene(text, results.path(), overrides, &own);
 }

@@ -161,12 +161,11 @@ std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& membe
 
 namespace {
 
-/// As the default tolerance has it, or a tighter one.
-double relative_error(Scene const& scene) { return std::clamp(scene.integrator.rtol, 1e-10, 1e-6); }
+constexpr double relative_error = 1e-6;  // the default rtol
 
 }  // namespace
 
-double least_energy(Scene const& scene) { return relative_error(scene) * fall_energy(scene); }
+double least_energy(Scene const& scene) { return relative_error * fall_energy(scene); }
 
 double natural_scale(std::string_view unit, Scene const& scene) {
     Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
@@ -187,7 +186,8 @@ std::string why_no_sensitivity(QuantityColumn const& column, std::span<double co
     if (summary.count < 2) return "";
     if (summary.min == summary.max) return "does not vary";
     if (column.quantity == "energy_residual" && !makes_energy(scene.parts)) return "is the integration's error";
-    double const error = relative_error(scene) * std::max({std::abs(summary.min), std::abs(summary.max), natural_scale(column.unit, scene)});
+    double const natural = column.unit == "s" ? 0 : natural_scale(column.unit, scene);  // that of times is the whole study
+    double const error = relative_error * std::max({std::abs(summary.min), std::abs(summary.max), natural});
     if (!(summary.sd <= error)) return "";
     std::string const unit = column.unit == "1" ? "" : " " + column.unit;
     return fmt::format("varies by {:.2g}{}, no more than its error of {:.2g}{}", summary.sd, unit, error, unit);

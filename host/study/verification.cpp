@@ -2,7 +2,6 @@
 #include "host/study/verification.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"

@@ -119,8 +119,10 @@ template <class Model, class Real> class ModelParts {
                   "has_contacts: the model says switches() and watching(locate_modes, neighbours), its report has a contact");
     static_assert(!Model::has_contacts || IsRigid<Model> || requires(Parameters<Real> const& p) { Model::touch_scale(p); },
                   "has_contacts: touch_scale(parameters), length that the watch's tolerance is relative to (kernels/steppers/contact_watch.hpp)");
-    static_assert(!Model::has_shadows || Memory<Real>::speeds == 0 || requires(Parameters<Real> const& p) { Model::touch_speed(p); },
-                  "has_shadows, of members that remember speeds: touch_speed(parameters), what those are measured in");
+    static_assert(!Model::has_shadows || Memory<Real>::speeds == 0 || requires(Parameters<Real> const& p, typename Model::template Watch<Real> const& w) {
+        Model::touch_speed(p);
+        w.start_depth(0);
+    }, "has_shadows, of members that remember speeds: touch_speed(parameters), what those are measured in; the watch has start_depth(pair)");
     static_assert(!IsRigid<Model> || requires(Parameters<Real> const& p, Real end) { Model::located(p, end); },
                   "is_rigid: located(parameters, end), depth up to which an event counts as found; settle(...), what follows where a step has ended "
                   "(kernels/rigid), with shadows also of Tangents (kernels/lanes/saltation.hpp)");

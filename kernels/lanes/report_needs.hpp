@@ -41,6 +41,8 @@ struct ReportNeeds {
         needs.powers_alone = needs.stages && !needs.accelerations && !needs.forces && !Observer::integrates_more(quantities);
         needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
         if (HasClocks<Model> && settings.method == Method::verner65) needs.watching = Watching::clocks;
+        // Contacts are held by steps that may end where they change.
+        if (holds_contacts(needs.watching) && settings.method != Method::automatic && !is_explicit_pair(settings.method)) needs.watching = Watching::nothing;
         needs.switches = model.switches();
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();
         return needs;

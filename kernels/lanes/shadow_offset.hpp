@@ -21,7 +21,7 @@ template <class Model, class Real> struct ShadowOffset {
             Real const scale = Model::touch_speed(s.constants.parameters);
             for (int i = n; i < width; ++i) {
                 Real const apart = (numbers(shadow.contacts.memory)[i - n] - numbers(s.contacts.memory)[i - n]) / scale;
-                w[i] = select(both_touch(pack, shadow, i - n), apart, Real(0.0));
+                w[i] = select(touches(s.contacts.watch, i - n) & touches(shadow.contacts.watch, i - n), apart, Real(0.0));
             }
         }
     }
@@ -34,10 +34,11 @@ template <class Model, class Real> struct ShadowOffset {
         }
         if constexpr (has_speeds) {
             Real const scale = length * Model::touch_speed(s.constants.parameters);
+            // Where its member touches, a shadow that did not may touch from here on, without a touch of its own.
             for (int i = n; i < width; ++i) {
                 Real& number = numbers(shadow.contacts.memory)[i - n];
                 Real const own = numbers(s.contacts.memory)[i - n];
-                number = select(in & both_touch(pack, shadow, i - n), Model::remembered(fma(scale, w[i], own)), number);
+                number = select(in & touches(s.contacts.watch, i - n), Model::remembered(fma(scale, w[i], own)), number);
             }
         }
     }
@@ -57,10 +58,7 @@ template <class Model, class Real> struct ShadowOffset {
 
 private:
     static constexpr bool has_speeds = Memory::speeds > 0;
-    SLIDEWAY_FN static Mask<Real> both_touch(Pack<Model, Real> const& pack, Shadow const& shadow, int pair) {
-        Real const zero(0.0);
-        return (pack.state.contacts.watch.start_depth(pair) > zero) & (shadow.contacts.watch.start_depth(pair) > zero);
-    }
+    template <class Watch> SLIDEWAY_FN static Mask<Real> touches(Watch const& watch, int pair) { return watch.start_depth(pair) > Real(0.0); }
     /// The impact speeds come first in it.
     SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
     SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }

@@ -49,7 +49,8 @@ public:
         if (step.pack.needs.watch()) {
             auto& [memory, watch] = step.pack.state.contacts;
             bool const may_shorten = !Stepper::stiff && step.adapts();
-            Real const known_step = select(known_, step.attempt.step, Real(0.0));
+            // Where steps end at events a watch moves with its member, and knows where each has begun.
+            Real const known_step = step.pack.needs.cuts() ? step.attempt.step : select(known_, step.attempt.step, Real(0.0));
             auto const touched = watch.update(accepted, step.attempt.report.contact, memory, step.pack.state.course.y, step.pack.needs.watching,
                                               known_step, may_shorten ? &next : nullptr);
             known_ = known_ | accepted;

@@ -16,7 +16,7 @@ struct LawInfo {
     /// step's beginning: `touching` may be true of an apex whose depth is no more above zero.
     bool switches;
     bool continuous = false;  // its forces are, but for those of restitution, where an apex meets its face or leaves it: steps may then end just beyond
-    bool ends_steps = false;  // its forces begin and end at a jump or a bend: steps end there, with contacts held as of a law that switches
+    bool ends_steps = false;  // its forces begin and end at a jump or a bend: steps end there, with contacts held as of a law that switches, but for restitution
     KeyGroups groups;        // of the keys of contacts, those that count for it
     bool of_touching_alone = false;  // forces are on the apices that touch, and depend on no depth of another
     bool needs_restitution = false;  // contact.restitution must be given: it has no other damping

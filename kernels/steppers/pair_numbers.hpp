@@ -60,7 +60,7 @@ struct PairNumbers {
 
     /// Σ_j w_j k_j of the first stages, the newest slope last, for the sum waits for it alone.
     template <int room, class Real> SLIDEWAY_FN static void combine(double const* weights, int count, Real const (*k)[room], Real* sum, int n = room) {
-        if (n > room) __builtin_unreachable();
+        if (n > room) __builtin_unreachable();  // or g++ warns of the loops below
         Real held[room];
         int j = 0;
         while (j + 1 < count && weights[j] == 0) ++j;

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from . import arguments
 from .program import call
 from .results import StrPath, file_of
-from .scenes import has_rows_of_inputs, scene, values_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -79,10 +78,6 @@ def explain(result: StrPath | xr.Dataset, member: int | None = None, time: float
     if member is None and isinstance(result, xr.Dataset) and "member" in result.coords:
         member = int(np.atleast_1d(result["member"].values)[0])
     options = [] if member is None else ["--member", str(arguments.whole(member, "member", 0))]
-    if isinstance(result, xr.Dataset) and has_rows_of_inputs(scene(result).get("study", {})):
-        # The program would look for a table; so it is told what the member has.
-        given = {"study": '{kind="ensemble"}', **values_of(result, member or 0)}
-        options += [word for key, value in given.items() for word in ("--set", f"{key}={value}")]
     if time is not None:
         options += ["--time", repr(float(arguments.numbers(time, "time")))]
     said = json.loads(call(program, ["probe", file_of(result), "--explain", "--json", *options]))

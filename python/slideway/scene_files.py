@@ -77,11 +77,8 @@ def scene_text(scene: StrPath | Mapping[str, Any]) -> SceneFile:
 @one_line
 def _in_memory(scene: Mapping[str, Any], name: str) -> SceneFile:
     study = scene.get("study")
-    if isinstance(study, Mapping) and isinstance(study.get("table"), (str, os.PathLike)):
-        if not study["table"]:
-            raise SceneError(2, 'study.table is "": no scene holds rows that Ensemble.run(inputs=...) was given; run a member of them by its '
-                                "slideway.scene(result, member=K), or name a file")
-        # The program looks for a table beside the scene, which has no place of its own.
+    if isinstance(study, Mapping) and isinstance(study.get("table"), (str, os.PathLike)) and study["table"]:
+        # The program looks for a table beside the scene, which has no place of its own; members of Ensemble.run(inputs=...) have none.
         scene = {**scene, "study": {**study, "table": os.path.abspath(study["table"])}}
     text = to_toml(scene)
     text.encode("utf-8")  # or it is no text that a scene can hold

@@ -14,7 +14,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 struct Spring : KelvinVoigt {
     static constexpr Key keys[] = {
         {"contact.spring", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", 2e7}};
-    static constexpr LawInfo info{.name = "spring", .words = "a spring at each apex", .switches = false, .groups = KelvinVoigt::info.groups, .keys = keys};
+    static constexpr LawInfo info{.name = "spring", .words = "a spring at each apex", .switches = false, .ends_steps = true, .groups = KelvinVoigt::info.groups, .keys = keys};
 };
 }
 #define SLIDEWAY_LAW Spring

@@ -43,7 +43,7 @@ if line[0] == "run":
     kind = os.path.basename(line[1]).partition(".")[0].partition("_")[0]
     kind = "slider_crank" if kind == "slider" else kind
     for setting in shorter[kind]:
-        line += ["--set", setting]
+        line += ["--set", "study.members=8" if setting == "study.base=4" and "study.design=lhs" in line else setting]
 os.execv({program!r}, [{program!r}, *line])
 """
 

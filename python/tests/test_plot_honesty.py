@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.transforms import Bbox
 from slideway import palette
-from slideway.report.columns import columns
+from slideway.columns import columns
 from slideway.sampling import too_coarse
 
 Result = Callable[[str], xr.Dataset]

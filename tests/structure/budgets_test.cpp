@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 20'001u);
+    EXPECT_LE(Layer("kernels").lines(), 20'002u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'201u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'943u);
-    EXPECT_LE(Layer("host").lines(), 31'701u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'944u);
+    EXPECT_LE(Layer("host").lines(), 31'697u);
     EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 

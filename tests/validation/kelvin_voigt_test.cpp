@@ -92,6 +92,20 @@ TEST(KelvinVoigtImpact, ThatIsDampedNeverPulls) {
     }
 }
 
+/// Steps of a fixed length end at no touch: contacts are seen as they are.
+TEST(KelvinVoigtImpact, IsThatOfFixedStepsToo) {
+    Inputs const in = touching(1e6, 0);
+    testing::RunOptions o;
+    o.parts = {Law::kelvin_voigt, Damping::point, false, false, Mechanism::free_slider};
+    o.settings.method = Method::rk4;
+    o.settings.fixed_step = 1e-6;
+    o.settings.end_time = 3e-3;
+    auto const r = testing::run(best_isa(), o, {in});
+    EXPECT_EQ(r.records[0].status, Status::finished);
+    EXPECT_NEAR(r.states[0][static_cast<std::size_t>(Series::vy)], speed, 1e-3 * speed);
+    EXPECT_LT(std::abs(r.value(0, Quantity::energy_residual)), 1e-3 * in.slider_mass * speed * speed);
+}
+
 /// The force of the damper jumps at each touch: steps end there, or would become shorter without end the tighter their tolerance.
 TEST(KelvinVoigtImpact, WithADamperIsFinishedAtEveryTolerance) {
     for (double const damping : {0.0, 1e4, 1e5, 1e6}) {

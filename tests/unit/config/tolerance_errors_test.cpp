@@ -107,7 +107,7 @@ TEST(SceneToleranceErrors, TablesThatAreNotThere) {
     EXPECT_EQ(folder.error("[study]\ndesign = \"table\"\ntable = \".\""),
               "scene.toml:4: study.table is \".\" (it is a directory); name a file in it");
     EXPECT_EQ(folder.error("[study]\ndesign = \"table\"\ntable = \"\""),
-              "scene.toml:4: study.table is \"\" (no file has this name; members of Ensemble.run(inputs=...) are of none); name a file, or give their inputs again");
+              "scene.toml:4: study.table is \"\" (no file has this name; members of Ensemble.run(inputs=...) are of none); name a file, or run one of them by slideway.scene(result, member=K)");
     EXPECT_EQ(folder.error("[study]\ntable = \"members.csv\""),
               "scene.toml:3: study.table is \"members.csv\" (design \"mc\" reads no table); "
               "use design = \"table\", or remove it");

@@ -57,7 +57,7 @@ TEST_P(ClockedStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
     for (Law const law : testing::every_law()) {
         for (Damping const damping : testing::dampings_of(info(law))) {
             // Steps of time that end at changes of the contacts are the better ones: they are no measure.
-            double const driven = info(law).continuous && damping != Damping::restitution ? 1e-5 : 1e-6;
+            double const driven = info(law).switches ? 1e-6 : 1e-5;
             double const least = GetParam() == Mechanism::free_slider ? 2e-5 : driven;
             for (bool const friction : {false, true}) {
                 Parts const parts{law, damping, friction, friction, GetParam()};
