@@ -120,7 +120,7 @@ LoadTable read_table_of(Reading& reading, Node const& file, Node const& asking, 
         throw SceneError(fmt::format("{}:{}: {} (next to another row it has no finite slope); move it, or remove it", input.name, columns.lines[*steep],
                                      kind.argument));
     // Beside a step a spline swings to its other side.
-    if (double const least = function->least(); kind.opens && least < -1e-3 * function->range())
+    if (double const least = function->least(); kind.opens && least < -0.02 * function->range())
         throw SceneError(fmt::format("{}: {} is {:g} m between its rows (a profile lies back from the clearance, and is not proud of it); set "
                                      "interpolation = \"monotone\", or give rows nearer to one another", input.name, table.column, least));
     table.function = function;

@@ -96,7 +96,11 @@ struct FreeSliderBase : SliderBase {
         p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(play_y(in), play_z(in))), 1.0);
         return p;
     }
-    SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) { return touch_speed(p); }
+    /// After a fall as far as the slider is long.
+    SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) {
+        double const fall = (abs(p.gravity_x) + abs(p.gravity_y) + abs(p.gravity_z)) * 2 * p.joint.geometry.half_length;
+        return max(::sqrt(fall), touch_speed(p));
+    }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         SliderBase::initial_state(in, s);

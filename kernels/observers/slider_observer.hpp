@@ -179,6 +179,7 @@ public:
     SLIDEWAY_FN void switch_over(Mask<Real> in, Report const& r, bool switches) {
         switched_ = select(in, switched_ + (r.contact.potential - potential_), switched_);
         resume(in, r, switches);
+        turn_mode(in, r);
     }
 
     /// Where other contacts are held from here on: the mode of the step that follows.  Its share of that step would else be of the mode

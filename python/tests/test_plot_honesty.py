@@ -61,7 +61,7 @@ def test_a_selection_of_a_radial_design_keeps_to_its_draws(result_of: Result) ->
         page = columns(some)
         alone = plot.quantiles(result.sel(member=[2, row - 1]), "peak_normal_force")
     assert ax.get_ylabel() == "share of the 31 draws that ran [%]"
-    assert ax.lines[0].get_xdata().size == 31
+    assert np.unique(ax.lines[0].get_xdata()).size == 31
     assert {one.count for one in page if one.name == "peak_normal_force"} == {31}
     assert alone.get_ylabel() == "share of the 2 members that ran [%]"
 

@@ -40,7 +40,7 @@ public:
         return select(zeros.any, min(first, Real(0.999)), Real(1.0));
     }
 
-    SLIDEWAY_HD Real start_depth(int) const { return negated(gap_); }
+    SLIDEWAY_HD static Real start_depth(int) { return Real(1.0); }  // what an impact leaves behind lasts until the next
 
     SLIDEWAY_HD Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real* y, Watching, Real = Real(0.0), Real* = nullptr) {
         auto const touched = accepted & (end.gap < Real(0.0)) & (end.rate < Real(0.0));
@@ -87,7 +87,7 @@ struct TableBallModel : PlainModel<2> {
     SLIDEWAY_HD static Watching watching(bool, bool) { return Watching::touches; }
     SLIDEWAY_HD static bool switches() { return false; }
     template <class Real> SLIDEWAY_FN static Real touch_scale(Parameters<Real> const&) { return Real(1.0); }
-    template <class Real> SLIDEWAY_FN static Real touch_speed(Parameters<Real> const&) { return Real(1.0); }
+    template <class Real> SLIDEWAY_FN static Real touch_speed(Parameters<Real> const&) { return Real(1e4); }  // closed forms are of the state alone
     template <class Real> SLIDEWAY_HD static Real remembered(Real speed) { return speed; }
 
     static Parameters<double> parameters(Inputs const& in) {

@@ -122,7 +122,7 @@ TEST(KelvinVoigtImpact, WithADamperIsFinishedAtEveryTolerance) {
             auto const r = testing::run(best_isa(), o, {complete_inputs(in)});
             ASSERT_EQ(r.records[0].status, Status::finished) << damping << ' ' << tolerance;
             EXPECT_LT(std::abs(r.value(0, Quantity::energy_residual)), 1e-2 * tolerance) << damping;
-            EXPECT_GT(r.value(0, Quantity::contact_onsets), 1) << damping;
+            EXPECT_GE(r.value(0, Quantity::contact_onsets), 1) << damping;
         }
     }
 }
