@@ -151,8 +151,6 @@ void check_varied(Reading const& reading, Node const& node, Key const& key, Prob
 bool varies(Scene const& scene, std::string_view name);
 /// Whether a key says where a member starts.
 bool is_of_start(Key const& key);
-/// Whether steps end at contacts whatever the scene says.
-bool always_locates(Scene const& scene);
 /// What to write instead of a name that is no numeric key of the scene.
 std::string key_advice(std::string_view name, Scene const& scene);
 /// Refuses a name of a load's number that the scene does not give: it has no place among those of a member.

@@ -35,12 +35,11 @@ bool bounces_for_ever(Scene const& scene) {
     return parts.damping == Damping::point && !of_points && std::ranges::none_of(law.keys, damps);
 }
 
-/// Modes are what a law switches between.  Long orbits under the law that switches take half the steps so, and neighbours need it.
+/// Modes are what a law switches between.  A step across the jump of the force there has no order of convergence, and rtol says nothing of its error.
 void read_located_modes(Reading& reading) {
     Scene& scene = reading.scene;
-    bool const asked_for = !runs_to_end(scene.study) || always_locates(scene);
     bool const can = has_effect(setting("integrator.locate_modes"), scene.integrator.method, scene.parts);
-    if (!reading.given("integrator.locate_modes")) scene.integrator.locate_modes = has_switches(scene.parts) && asked_for && can;
+    if (!reading.given("integrator.locate_modes")) scene.integrator.locate_modes = has_switches(scene.parts) && can;
 }
 
 void warn_of_idle_keys(Node const& table, Reading& reading) {
@@ -122,10 +121,6 @@ void check_largest_step(Reading const& reading, std::string_view name, double la
 }
 
 }  // namespace
-
-bool always_locates(Scene const& scene) {
-    return has_switches(scene.parts) && scene.integrator.method == Method::verner65 && scene.chaos.exponents == 0;
-}
 
 void read_integrator(Reading& reading) {
     Scene& scene = reading.scene;

@@ -128,7 +128,7 @@ std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
     if (!scene.parts.rigid && selects(of_rigid_contact, quantity))
         return Problem{"only impacts of rigid contacts have a bound of their energy", "remove it, or use contact.law = \"rigid\""};
     if (quantity == Quantity::switching_energy && makes_energy(scene.parts) && !scene.integrator.locate_modes)
-        return Problem{"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"};
+        return Problem{"it is known where steps end at the switches, and here they leap over them", "remove it, or leave [integrator] to its defaults"};
     return {};
 }
 

@@ -62,8 +62,9 @@ bool is_drawn(R r) { return of(r, DesignKind::mc) || of(r, DesignKind::lhs) || o
 bool not_grid(R r) { return !of(r, DesignKind::grid); }
 bool located(R r) { return r.scene.integrator.locate_modes; }
 bool can_locate(R r) { return has_effect(setting("integrator.locate_modes"), r.scene.integrator.method, r.scene.parts); }
-/// Steps leap over the switches that separate neighbours: in trials exponents came out up to half as large again.
-bool leaps(R r) { return has_switches(r.scene.parts) && r.scene.chaos.exponents > 0 && !located(r); }
+bool leaps(R r) { return has_switches(r.scene.parts) && !located(r); }
+/// The switches that are leapt over separate neighbours: in trials exponents came out up to half as large again.
+bool loses_exponents(R r) { return leaps(r) && r.scene.chaos.exponents > 0; }
 
 bool nothing_varies(R r) {
     return std::ranges::none_of(r.scene.variations, [](Variation const& variation) {
@@ -256,7 +257,7 @@ constexpr KeyRule rows[] = {
     {integrator, "friction.static",
      [](R r) { return steps_in_time(r) && r.scene.parts.friction && r.scene.inputs.friction_static != r.scene.inputs.friction_kinetic; },
      idle, "with method moreau_jean, whose contacts stick up to friction.kinetic"},
-    {integrator, "integrator.locate_modes", [](R r) { return always_locates(r.scene) && !located(r); }, excludes,
+    {integrator, "integrator.locate_modes", [](R r) { return leaps(r) && by(r, Method::verner65) && r.scene.chaos.exponents == 0; }, excludes,
      "verner65 ends its steps at contacts in any case", "remove it, or use method \"dopri5\""},
     {integrator, "integrator.locate_modes", [](R r) { return located(r) && rigid(r); }, excludes,
      "rigid contacts end steps at their touches already", "remove it"},
@@ -267,8 +268,10 @@ constexpr KeyRule rows[] = {
      "contact.restitution ends steps at its touches already", one_of_two},
     {integrator, "integrator.locate_modes", [](R r) { return located(r) && !can_locate(r); }, excludes,
      "{method} cannot end its steps there", "use method {any_pair}"},
-    {integrator, "integrator.locate_modes", [](R r) { return leaps(r) && can_locate(r); }, warns, "integrator.locate_modes is false{leaping}", "leave it out"},
-    {integrator, "integrator.method", [](R r) { return leaps(r) && !can_locate(r); }, warns, "integrator.method is {method}{leaping}", "use method {any_pair}"},
+    {integrator, "integrator.locate_modes", [](R r) { return loses_exponents(r) && can_locate(r); }, warns,
+     "integrator.locate_modes is false{leaping}", "leave it out"},
+    {integrator, "integrator.method", [](R r) { return loses_exponents(r) && !can_locate(r); }, warns,
+     "integrator.method is {method}{leaping}", "use method {any_pair}"},
 
     {all, "joint.clearance_y", both_y, idle, each_face},
     {all, "joint.clearance_z", both_z, idle, each_face},

@@ -91,7 +91,7 @@ Settings settings() {
         {.name = "integrator.step", .type = Type::number, .unit = "s", .meaning = "the fixed step of rk4 and moreau_jean", .preset = "-",
          .what = "fixed step", .range = time_of_steps, .methods = method_sets::fixed, .value = of_integrator<&IntegratorSettings::fixed_step>},
         {.name = "integrator.locate_modes", .type = Type::truth, .unit = "", .meaning = "end steps where the contact mode switches; for laws that switch",
-         .preset = "true for lyapunov, poincare and sweep, and with verner65, under a law that switches; else false",
+         .preset = "true under a law that switches, without restitution; else false",
          .methods = method_sets::explicit_pairs, .of_faces = true, .value = of_integrator<&IntegratorSettings::locate_modes>},
         {.name = "integrator.max_steps", .type = Type::count, .unit = "1",
          .meaning = "largest number of steps of a member, rejected ones included; a member that needs more ends as failed",

@@ -71,11 +71,10 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost});
     };
     // Where forces jump, no tolerance brings a step across that does not end there: far below the study's, steps become too small.
-    bool const jumps = has_switches(scene.parts);
-    bool const locates = jumps && !scene.integrator.locate_modes;
-    std::string_view const located = locates ? ", switches located" : "";
+    Scene located = bare;
+    located.integrator.locate_modes = has_switches(scene.parts);
 
-    Scene tight = bare;
+    Scene tight = located;
     tight.integrator.method = tightened_method(scene);
     if (has_fixed_step(own)) {
         tight.integrator.fixed_step *= fewer_steps;
@@ -83,12 +82,11 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
             static_cast<std::uint64_t>(static_cast<double>(scene.integrator.max_steps) / fewer_steps);
     } else {
         tighten(tight.integrator);
-        tight.integrator.locate_modes = tight.integrator.locate_modes || locates;
     }
-    add(tight, cost_of(scene.parts, own, tight.integrator.method), has_fixed_step(own) ? "" : located);
+    add(tight, cost_of(scene.parts, own, tight.integrator.method));
     if (has_fixed_step(own)) methods.back().error_per_difference = error_per_difference_of_steps;
 
-    Scene other = bare;
+    Scene other = located;
     other.integrator.method = other_method(scene);
     if (has_fixed_step(own)) {
         IntegratorSettings const usual;
@@ -97,8 +95,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         other.integrator.max_steps = std::max(other.integrator.max_steps, usual.max_steps);
     }
     tighten(other.integrator);
-    other.integrator.locate_modes = other.integrator.locate_modes || locates;
-    add(other, cost_of(scene.parts, own, other.integrator.method), located);
+    add(other, cost_of(scene.parts, own, other.integrator.method));
 
     if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
         Scene wide = bare;

@@ -129,10 +129,10 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     runs, exponents = {}, {}
     for name in size.laws or LAWS:
         slug = "".join(c if c.isascii() and c.isalnum() else "_" for c in name)
-        located = {"integrator.locate_modes": True} if name.startswith("published") else {}
+        located = name.startswith("published") and "leapt" not in name
         keys = {
-            **located, **LAWS[name], "study.members": size.members, "study.revolutions": size.turns, "study.samples_per_revolution": 2000,
-            "study.quantities": _QUANTITIES + (["switching_energy"] if located and "leapt" not in name else []), "study.vary": starts(0.1),
+            **LAWS[name], "study.members": size.members, "study.revolutions": size.turns, "study.samples_per_revolution": 2000,
+            "study.quantities": _QUANTITIES + (["switching_energy"] if located else []), "study.vary": starts(0.1),
         }  # fmt: skip
         study = {
             **LAWS[name], "study.members": size.exponents, "study.transient_revolutions": size.turns, "study.revolutions": size.turns, "study.history": 0,

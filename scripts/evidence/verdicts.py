@@ -124,8 +124,6 @@ def look_at(program: str, study: Study, folder: Path) -> dict[str, Any]:
         return result
     columns = [column for column in map(str, said.numbers.checked.values) if "at the end" not in column]
     settings: dict[str, Any] = {"integrator.rtol": 1e-9 if study.method in ("rk4", "moreau_jean") else min(max(1e-13, 1e-3 * study.rtol), 1e-6), "study.verify": 0}
-    if 'law = "paper"' in study.text:
-        settings["integrator.locate_modes"] = True  # no tolerance brings a step across a jump of the force
     errors: dict[tuple[str, str], list[float]] = {}
     for method in ("auto", "verner65"):
         truth = run(bare, folder / "truth.nc", set=settings | {"integrator.method": method}).load()

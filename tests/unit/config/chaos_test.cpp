@@ -262,13 +262,20 @@ TEST(SceneChaos, StepsSufficeForTheSlowestCrankOfADistribution) {
     }
 }
 
-TEST(SceneChaos, ModesAreLocatedForOrbits) {
+TEST(SceneChaos, ModesAreLocatedInEveryStudy) {
     auto const located = [](Scene const& scene) { return scene.integrator.locate_modes; };
     EXPECT_TRUE(located(study("lyapunov")));
     EXPECT_TRUE(located(sweep()));
     EXPECT_TRUE(located(sweep("exponents = 0")));
     EXPECT_TRUE(located(study("poincare")));
-    EXPECT_FALSE(located(study("ensemble")));
+    EXPECT_TRUE(located(study("ensemble")));
+    EXPECT_TRUE(located(study("tolerance", "design = \"mc\"\nmembers = 4\nquantities = [\"friction_loss\"]")));
+    EXPECT_TRUE(located(study("ensemble", "[integrator]\nmethod = \"verner65\"")));
+    EXPECT_FALSE(located(study("ensemble", "[integrator]\nmethod = \"ros34pw2\"")));
+    EXPECT_FALSE(located(study("ensemble", "[contact]\nrestitution = 0.5")));
+    EXPECT_FALSE(located(study("ensemble", "[contact]\nlaw = \"rigid\"\nrestitution = 0.5")));
+    EXPECT_FALSE(located(study("ensemble", "[integrator]\nlocate_modes = false")));
+    EXPECT_TRUE(study("ensemble", "[integrator]\nlocate_modes = false").warnings.empty());
     EXPECT_FALSE(located(study("lyapunov", "[contact]\nlaw = \"conservative\"")));
     EXPECT_FALSE(located(study("lyapunov", "[contact]\nrestitution = 0.5")));
     EXPECT_TRUE(located(study("lyapunov", "[integrator]\nlocate_modes = true")));
@@ -289,11 +296,11 @@ TEST(SceneChaos, ModesAreLocatedForOrbits) {
 TEST(SceneChaos, WhatSwitchesMakeIsKnownWhereStepsEndAtThem) {
     std::string const asked = "quantities = [\"switching_energy\"]\n";
     EXPECT_TRUE(study("poincare", asked).warnings.empty());
-    EXPECT_TRUE(study("ensemble", asked + "[integrator]\nlocate_modes = true").warnings.empty());
+    EXPECT_TRUE(study("ensemble", asked).warnings.empty());
     EXPECT_TRUE(study("ensemble", asked + "[contact]\nlaw = \"conservative\"").warnings.empty()) << "zero";
-    std::string const leapt = testing::error_of("schema = 1\n[study]\nkind = \"ensemble\"\n" + asked);
+    std::string const leapt = testing::error_of("schema = 1\n[study]\nkind = \"ensemble\"\n" + asked + "[integrator]\nlocate_modes = false");
     EXPECT_TRUE(contains(leapt, "study.quantities")) << leapt;
-    EXPECT_TRUE(contains(leapt, "set integrator.locate_modes = true")) << leapt;
+    EXPECT_TRUE(contains(leapt, "leave [integrator] to its defaults")) << leapt;
 }
 
 TEST(SceneChaos, FixedStepsLeaveRoomForStops) {
