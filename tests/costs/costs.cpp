@@ -9,6 +9,7 @@
 #include <valgrind/callgrind.h>
 
 #include "bench/spread.hpp"
+#include "host/config/descriptors.hpp"
 #include "kernels/laws/list.hpp"
 #include "tests/support/ensemble.hpp"
 
@@ -71,6 +72,7 @@ void measure(Isa isa, CostCase const& c) {
     options.settings.end_time = c.end_time;
     options.settings.rtol = options.settings.atol = c.rtol;
     options.settings.method = c.method;
+    options.settings.locate_modes = has_switches(c.parts);
     options.quantities = c.quantities;
     auto const starts = members_of(c);
     std::string const name = std::string(name_of(isa)) + " " + c.name;
