@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "host/study/ensemble_plan.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::locate_modes_test {
@@ -60,6 +64,46 @@ TEST(LocatedModes, AreWorthATenthOfTheErrorAndSaveRightHandSides) {
         EXPECT_LT(median_error(located, reference), 0.25 * median_error(leapt, reference)) << tolerance;
         EXPECT_LT(evaluations(located), 0.9 * evaluations(leapt)) << tolerance;
     }
+}
+
+/// What an ensemble under the paper's law ends with, of which its scene says no more of the integration than this.
+testing::EnsembleResult run_scene(std::string_view integrator) {
+    Scene const scene = parse_scene(fmt::format(R"(schema = 1
+[contact]
+law = "paper"
+[friction]
+[integrator]
+{}
+[study]
+members = 64
+duration = "9 ms"
+[study.vary]
+"initial.y" = {{ dist = "unif", low = "-0.03 mm", high = "0.03 mm" }}
+"initial.z" = {{ dist = "unif", low = "-0.03 mm", high = "0.03 mm" }}
+"initial.vy" = {{ dist = "unif", low = -0.05, high = 0.05 }}
+"initial.roll" = {{ dist = "unif", low = -1e-3, high = 1e-3 }}
+"initial.yaw" = {{ dist = "unif", low = -1e-3, high = 1e-3 }}
+"initial.pitch" = {{ dist = "unif", low = -1e-3, high = 1e-3 }}
+)", integrator), "test.toml");
+    EnsemblePlan const plan = ensemble_plan(scene, MemberSet(MemberRange{0, 64}), *cpu_backend(best_isa()), 1);
+    testing::EnsembleResult result;
+    result.states.resize(64);
+    result.records.resize(64);
+    auto const keep = [&](BlockResult const& block) {
+        for (std::size_t i = 0; i < block.members.size(); ++i) {
+            result.records[block.members[i]] = block.records[i];
+            std::copy_n(block.final_states.data() + i * state_size, state_size, result.states[block.members[i]].data());
+        }
+    };
+    EXPECT_EQ(run_ensemble(plan, cpu_backend(best_isa())->kernel(scene.parts, false), keep, StopRequest{}).failed(), 0u);
+    return result;
+}
+
+TEST(LocatedModes, AreWhatEnsemblesHaveUnlessTheirScenesSayOtherwise) {
+    auto const reference = run_scene("rtol = 1e-12"), usual = run_scene("rtol = 1e-6"), leapt = run_scene("rtol = 1e-6\nlocate_modes = false");
+    EXPECT_LT(median_error(usual, reference), 0.5 * median_error(leapt, reference));
+    EXPECT_LT(evaluations(usual), evaluations(leapt));
+    EXPECT_EQ(usual.states, run_scene("rtol = 1e-6\nlocate_modes = true").states);
 }
 
 TEST(LocatedModes, LetTheErrorFallAsTheOrderOfTheMethodSays) {
