@@ -74,7 +74,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     Scene located = bare;
     located.integrator.locate_modes = has_switches(scene.parts);
 
-    Scene tight = located;
+    Scene tight = has_fixed_step(own) ? bare : located;
     tight.integrator.method = tightened_method(scene);
     if (has_fixed_step(own)) {
         tight.integrator.fixed_step *= fewer_steps;
