@@ -75,23 +75,16 @@ def table_of(rows: list[Row]) -> list[list[str]]:
 def draw(rows: list[Row], file: Path) -> None:
     """The widest instruction set over `scalar`, a bar for each row that has both."""
     # Here, so that the table needs Python alone.
-    import matplotlib
+    import numpy as np
+    from slideway.figures.marks import Axis, Level, Panel, Rows, Text, named
+    from slideway.plot.axes import picture
 
-    matplotlib.use("svg")
-    import matplotlib.pyplot as plt
-
-    bars = [(f"{row.group}: {row.what}", ratio, row.widest()) for row in rows if (ratio := row.ratio("scalar"))]
-    figure, axes = plt.subplots(figsize=(7, 0.8 + 0.24 * len(bars)), layout="constrained")
-    axes.barh([name for name, _, _ in bars], [ratio for _, ratio, _ in bars], color="#3b6ea5")
-    axes.bar_label(axes.containers[0], fmt="%.1f", padding=3, fontsize=8)
-    axes.axvline(1, color="#444444", linewidth=0.8)
-    axes.invert_yaxis()
-    axes.margins(x=0.1)
-    axes.tick_params(axis="y", labelsize=8)
-    axes.set_xlabel(f"times as fast with {bars[0][2]} as with scalar code, one core")
-    axes.spines[["top", "right"]].set_visible(False)
-    figure.savefig(file, metadata={"Date": None})
-    plt.close(figure)
+    bars = [(f"{row.group}: {row.what}", ratio, row.widest()) for row in reversed(rows) if (ratio := row.ratio("scalar"))]
+    ratios = np.array([ratio for _, ratio, _ in bars])
+    marks = [Rows(ratios), Level(1, "x"), *(Text(ratio, place, f" {ratio:.1f}", size=8, across="left") for place, ratio in enumerate(ratios))]
+    across = Axis(f"times as fast with {bars[-1][2]}\nas with scalar code, one core", low=0, high=1.1 * ratios.max())
+    panel = Panel(marks, across, Axis("", ticks=named([name for name, _, _ in bars])))
+    file.write_text(picture([panel], height=0.8 + 0.24 * len(bars), width=7), encoding="utf-8")
 
 
 def main() -> int:

@@ -14,6 +14,8 @@ from .scenes import scene, varied
 
 Array = NDArray[np.float64]
 _keys = ("offset_y", "offset_z", "roll", "yaw", "pitch")
+# Signs (along X, Y, Z) of the apices P1 ... P8 (model.md section 3).
+APEX_SIGNS = np.array([[1, 1, 1], [1, -1, 1], [1, -1, -1], [1, 1, -1], [-1, 1, 1], [-1, -1, 1], [-1, -1, -1], [-1, 1, -1]], dtype=float)
 _places = ("way.", "joint.clearance_y_", "joint.clearance_z_")  # keys that say where the faces lie
 
 

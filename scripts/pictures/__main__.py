@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import slideway
@@ -17,9 +18,9 @@ from .jobs import JOBS
 from .mechanisms import KEYS
 from .overviews import explain, layers, plots, report, stability
 from .regimes import regimes
-from .style import Picture, largest
-
-PICTURES: dict[str, Picture] = {
+largest = 200_000  # bytes of a picture
+# What makes the text of an SVG file, or a PNG file; its argument is the root of the repository.
+PICTURES: dict[str, Callable[[Path], str | bytes]] = {
     "mechanism": mechanism,
     "apices": apices,
     "rattling": film,

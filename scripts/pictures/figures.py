@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +10,14 @@ import numpy as np
 import pandas as pd
 import slideway
 import xarray as xr
-from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Note, Panel
+from slideway.figures.base import by_contact, panel_of
+from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Mark, Note, Panel, Spans, named
 from slideway.palette import class_colours, colours, grey, limit_colour
-from slideway.plot.axes import frame
+from slideway.plot.axes import picture
 from slideway.sections import sections
 
-from .style import as_svg, axes_of, law_colours, law_names, picture
+law_colours = {"paper": colours[1], "conservative": colours[0]}
+law_names = {"paper": "law as published (paper)", "conservative": "conservative law"}
 
 _short = {"paper": "as published", "conservative": "conservative"}
 _standard = "scenes/slider_crank_0.1mm.toml"
@@ -28,40 +31,35 @@ def run(root: Path, scene: str, law: str, **overrides: Any) -> xr.Dataset:
                         **{"study__verify": 0} | overrides)
 
 
-def stretches(time: np.ndarray, there: np.ndarray, columns: int = 400) -> list[tuple[float, float]]:
-    """Starts and lengths of the stretches in which a flag is set, as fine as so many columns of the picture; none gets lost.
+def stretches(edges: np.ndarray, there: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Starts and lengths of the stretches of columns in which a flag is set; the columns' edges are one more than the flags.
 
-    >>> import numpy as np
-import pandas as pd
-    >>> stretches(np.arange(8.0), np.array([0, 1, 0, 0, 0, 0, 1, 1]) > 0, 4)
-    [(0.0, 1.75), (5.25, 1.75)]
+    >>> stretches(np.arange(6.0), np.array([True, False, True, True, False]))
+    (array([0., 2.]), array([1., 2.]))
     """
-    edges = np.linspace(time[0], time[-1], columns + 1)
-    column = np.minimum(np.searchsorted(edges, time, "right") - 1, columns - 1)
-    marked = np.concatenate([[0], np.bincount(column, there, columns) > 0, [0]]).astype(int)
-    begins, ends = np.flatnonzero(np.diff(marked) > 0), np.flatnonzero(np.diff(marked) < 0)
-    return [(float(edges[b]), float(edges[e] - edges[b])) for b, e in zip(begins, ends, strict=True)]
+    change = np.diff(np.concatenate([[0], there, [0]]).astype(int))
+    begins, ends = np.flatnonzero(change > 0), np.flatnonzero(change < 0)
+    return edges[begins], edges[ends] - edges[begins]
 
 
 def modes(root: Path) -> str:
     """Which contacts a slider has over its first 0.6 s: the hardest of each sample."""
-    classes = ("free", "point", "line", "surface")
-    figure, axes = axes_of(2, height=4.2, sharex=True)
-    for ax, law in zip(axes, law_names, strict=True):
+    panels = []
+    for law, words in law_names.items():
         result = run(root, _standard, law, study__revolutions=0.3, study__samples_per_revolution=0, study__samples=6001,
                      study__quantities=["points", "lines", "surfaces", "x"])
-        points, lines, surfaces = (result[name].values[0] > 0 for name in ("points", "lines", "surfaces"))
-        hardest = np.select([surfaces, lines, points], [3, 2, 1], 0)
+        classes = by_contact(*(result[name].values[0] > 0 for name in ("surfaces", "lines", "points")))
         time = result["time"].values * 1e3
-        for level, name in enumerate(classes):
-            ax.broken_barh(stretches(time, hardest == level), (level - 0.4, 0.8), color=class_colours[name], lw=0)
-        shares = [np.mean(hardest == level) for level in range(4)]
-        ax.set_yticks(range(4), [f"{name} {'<1%' if 0 < share < 0.01 else f'{share:.0%}'}" for name, share in zip(classes, shares, strict=True)])
-        ax.set_title(law_names[law], loc="left")
-        ax.set_xlim(time[0], time[-1])
-        ax.set_ylim(-0.6, 3.6)
-        frame(ax, "time [ms]" if ax is axes[-1] else "", "")
-    return as_svg(figure)
+        # As fine as 400 columns of the picture; no contact gets lost.
+        edges = np.linspace(time[0], time[-1], 401)
+        column = np.minimum(np.searchsorted(edges, time, "right") - 1, 399)
+        spans = [Spans(*stretches(edges, np.bincount(column, there, 400) > 0), level - 0.4, 0.8, class_colours[name])
+                 for level, (name, there) in enumerate(classes.items())]  # fmt: skip
+        shares = {name: np.mean(there) for name, there in classes.items()}
+        ticks = named([f"{name} {'<1%' if 0 < share < 0.01 else f'{share:.0%}'}" for name, share in shares.items()])
+        across = Axis("time" if panels else "", "ms" if panels else "", low=time[0], high=time[-1])
+        panels.append(Panel(spans, across, Axis("", low=-0.6, high=3.6, ticks=ticks), words))
+    return picture(panels, height=4.2, sharex=True)
 
 
 def energy_residual(root: Path) -> str:
@@ -96,19 +94,16 @@ def poincare(root: Path) -> str:
 
 def bifurcation(root: Path) -> str:
     """Sections over the clearance, under the law as published and under the conservative one."""
-    figure, axes = axes_of(2, height=5.4, sharex=True)
-    for ax, law in zip(axes, law_names, strict=True):
+    panels = []
+    for law, words in law_names.items():
         result = run(root, "scenes/sweep_clearance.toml", law, study__points=16, study__revolutions=10, study__transient_revolutions=2,
                      study__exponents=0)
-        slideway.plot.bifurcation(result, "y", ax=ax)
-        for dots in ax.collections:
-            dots.set_color(law_colours[law])
+        (dots,) = panel_of(slideway.plot.bifurcation, result, "y").marks
         gap = np.array([50.0, 500.0])
-        ax.plot(gap, gap, color=grey, lw=1, ls=":")
-        ax.plot(gap, -gap, color=grey, lw=1, ls=":")
-        ax.set_title(law_names[law], loc="left")
-        frame(ax, "clearance per side [µm]" if ax is axes[-1] else "", "y at angle 0 [µm]")
-    return as_svg(figure)
+        gaps: list[Mark] = [Curve(gap, side * gap, colour=grey, width=1, dash=":") for side in (1, -1)]
+        across = Axis("clearance per side" if panels else "", "µm" if panels else "")
+        panels.append(Panel([replace(dots, colour=law_colours[law]), *gaps], across, Axis("y at angle 0", "µm"), words))  # type: ignore[call-arg]
+    return picture(panels, height=5.4, sharex=True)
 
 
 def tolerance(root: Path) -> str:
@@ -127,14 +122,8 @@ def tolerance(root: Path) -> str:
 
 def work_precision(root: Path) -> str:
     """Error against run time of one crank turn with its impacts (bench/results)."""
-    figure, (ax,) = axes_of(height=4.6)
-    slideway.plot.work_precision(root / "bench/results/work_precision.csv", "turn_energy", ax)
-    ax.set_title("")
-    ax.set_title("one crank turn with its impacts", loc="left")
-    handles, words = ax.get_legend_handles_labels()
-    ax.get_legend().remove()
-    figure.legend(handles, words, loc="outside lower center", ncols=2, frameon=False)
-    return as_svg(figure)
+    panel = panel_of(slideway.plot.work_precision, root / "bench/results/work_precision.csv", "turn_energy")
+    return picture([replace(panel, title="one crank turn with its impacts")], height=4.6, below=2)
 
 
 def heyoka(root: Path) -> str:

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import slideway
+from slideway.figures.marks import Axis, Curve, Level, Mark, Panel, Text
 from slideway.palette import colours, limit_colour
-from slideway.plot.axes import frame
+from slideway.plot.axes import picture
 
-from .style import as_svg, axes_of
-
+_dark = "#444444"
 _soft = 1e8  # [N/m^1.5], so soft that the difference shows
 
 
@@ -36,18 +36,11 @@ def end_of_bounces(touches: np.ndarray, e: float) -> float:
 
 def rigid(root: Path) -> str:
     """A slider between its walls, rigid and compliant, and its bounces before it rests on the upper wall."""
-    figure, (above, below) = axes_of(2, height=5.4)
-    for line, width, colour, words, is_rigid in (("-", 1.8, colours[0], "rigid", True), (":", 1.6, colours[1], "compliant, 1e8 N/m$^{1.5}$", False)):
-        time, height, _ = _height(root, is_rigid, 0.05, 1001)
-        above.plot(time, height, line, lw=width, color=colour, label=words)
-    above.axhline(1, color="#444444", lw=0.8)
-    above.axhline(-1, color="#444444", lw=0.8)
-    above.text(50, 1.04, "upper wall", ha="right", va="bottom", color="#444444")
-    above.text(50, -1.06, "lower wall", ha="right", va="top", color="#444444")
-    above.set_ylim(-1.35, 1.35)
-    above.set_xlim(0, 50)
-    above.legend(frameon=False, loc="center left")
-    frame(above, "time [ms]", "height over clearance")
+    soft = Curve(*_height(root, False, 0.05, 1001)[:2], "compliant, 1e8 N/m$^{1.5}$", colours[1], width=1.6, dash=":")
+    bounces: list[Mark] = [Curve(*_height(root, True, 0.05, 1001)[:2], "rigid", width=1.8), soft]
+    for side, words, up in ((1, "upper wall", "bottom"), (-1, "lower wall", "top")):
+        bounces += [Level(side, colour=_dark, width=0.8), Text(50, 1.05 * side, words, _dark, across="right", up=up)]
+    above = Panel(bounces, Axis("time", "ms", low=0, high=50), Axis("height over clearance", low=-1.35, high=1.35))
 
     time, height, e = _height(root, True, 0.0105, 105_001)
     gap = np.maximum(1 - height, 1e-9)
@@ -57,11 +50,7 @@ def rigid(root: Path) -> str:
     # Few points where a bounce is round, many where it touches.
     near = np.unique(np.logspace(0, 4, 30).astype(int))
     shown = np.unique(np.clip(np.concatenate([np.arange(0, touches[-1], 400), *[touches + sign * k for k in near for sign in (1, -1)], touches]), 0, touches[-1]))
-    below.semilogy(time[shown], gap[shown], color=colours[0], lw=1.4)
-    below.axvline(over, color=limit_colour, lw=1.4, ls="--", label="end by the sum of all bounces")
-    below.text(over + 0.12, 0.03, "rests on\nthe wall", color="#444444", va="top")
-    below.set_xlim(2, 10.5)
-    below.set_ylim(3e-7, 1)
-    below.legend(loc="lower left", framealpha=1, edgecolor="white")
-    frame(below, "time [ms]", "distance over clearance")
-    return as_svg(figure)
+    falling: list[Mark] = [Curve(time[shown], gap[shown], width=1.4), Level(over, "x", "end by the sum of all bounces", limit_colour, 1.4, "--")]
+    falling.append(Text(over + 0.12, 0.03, "rests on\nthe wall", _dark, across="left", up="top"))
+    below = Panel(falling, Axis("time", "ms", low=2, high=10.5), Axis("distance over clearance", log=True, low=3e-7, high=1))
+    return picture([above, below], height=5.8, below=2)

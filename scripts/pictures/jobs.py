@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import importlib.util
 import os
 import subprocess
@@ -13,13 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import slideway
 import xarray as xr
 from scipy.io import loadmat
 from slideway.figures.marks import Axis, Curve, Level, Mark, Panel, named
 from slideway.palette import colours, grey, limit_colour
-
-from .style import picture
+from slideway.plot.axes import picture
 
 _g = 9.81
 
@@ -148,10 +147,9 @@ def export(root: Path) -> str:
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["sh", str(root / "examples/jobs/export.sh"), "--quiet", "--set", "study.members=64", "--set", "study.verify=0"], cwd=folder,
                        env={**os.environ, "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}"}, check=True, capture_output=True)  # fmt: skip
-        with (Path(folder) / "pump_members.csv").open(encoding="utf-8") as lines:
-            members = list(csv.DictReader(lines))
+        members = pd.read_csv(Path(folder) / "pump_members.csv")
         series = loadmat(Path(folder) / "pump.mat", squeeze_me=True, struct_as_record=False)["series"]
-    clearance, loss = (np.array([float(row[name]) for row in members]) for name in ("joint.clearance_y [m]", "damping_loss [J]"))
+    clearance, loss = (members[name].to_numpy() for name in ("joint.clearance_y [m]", "damping_loss [J]"))
     left = Curve(1e6 * clearance, 1e3 * loss, dash="", marker="o", size=4)
     lines = _rows(1e3 * series.time, series.y[:2], ["member 0", "member 1"], 1e6, 1.2)
     return picture([

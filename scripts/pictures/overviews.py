@@ -6,19 +6,20 @@ import io
 import shutil
 import subprocess
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import slideway
-from matplotlib.patches import FancyBboxPatch
 from PIL import Image
+from slideway.figures.base import panel_of
 from slideway.figures.marks import Axis, Curve, Level, Panel
 from slideway.palette import colours
+from slideway.plot.axes import picture
 
+from .drawings import Sheet, box
 from .figures import run
-from .style import as_svg, axes_of, picture
 
 
 def stability(root: Path) -> str:
@@ -47,13 +48,9 @@ def stability(root: Path) -> str:
 def plots(root: Path) -> str:
     """Two plots of the Python package (docs/how_to/python.md), of a tolerance study."""
     result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=256)
-    figure, axes = axes_of(2, height=6.0)
-    slideway.plot.quantiles(result, "peak_normal_force", ax=axes[0])
-    slideway.plot.sensitivity(result, "peak_normal_force", ax=axes[1])
-    for ax in axes:  # beside the axes the legends would take half of so narrow a picture
-        ax.get_legend().remove()
-        ax.legend(frameon=False, loc="lower right")
-    return as_svg(figure)
+    panels = (panel_of(plot, result, "peak_normal_force") for plot in (slideway.plot.quantiles, slideway.plot.sensitivity))
+    # Beside the axes the legends would take half of so narrow a picture.
+    return picture([replace(panel, legend="lower right") for panel in panels], height=6.0)
 
 
 def explain(root: Path) -> str:
@@ -61,10 +58,8 @@ def explain(root: Path) -> str:
     result = run(root, "scenes/ensemble_starts.toml", "conservative", study__members=2, study__duration="40 ms", study__samples=4001,
                  study__quantities=["normal_force"])  # fmt: skip
     largest = float(result.time[int(result.normal_force.values[1].argmax())])
-    figure, axes = axes_of(1, 2, height=3.0)
-    for ax, view in zip(axes, ("end", "side"), strict=True):
-        slideway.plot.apex_forces(slideway.explain(result, member=1, time=largest), ax, view=view)
-    return as_svg(figure)
+    state = slideway.explain(result, member=1, time=largest)
+    return picture([panel_of(slideway.plot.apex_forces, state, view=view) for view in ("end", "side")], 2, 3.0)
 
 
 def report(root: Path) -> bytes:
@@ -95,22 +90,18 @@ _floors = (  # ARCHITECTURE.md, from above
 
 def layers(_: Path) -> str:
     """The layers of the program: host above, kernels below; an upper one includes lower ones."""
-    figure = plt.figure(figsize=(5.4, 4.9))
-    ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    ax.axis("off")
-    ax.set_xlim(0, 108)
-    ax.set_ylim(0, 98)
+    sheet = Sheet(108, 98)
     top = 96.0
     sides: dict[int, list[float]] = {0: [], 1: []}
     for name, words, side in _floors:
         top -= 3.0 if side == 1 and not sides[1] else 0.0
-        ax.add_patch(FancyBboxPatch((14, top - 5.6), 92, 4.8, boxstyle="round,pad=0.3", fc=("#e3eef8", "#fbe9dd")[side], ec=colours[side], lw=1.0))
-        ax.text(17, top - 3.2, name, va="center", weight="bold", fontsize=10)
-        ax.text(103, top - 3.2, words, va="center", ha="right", fontsize=9.5, color="#444444")
+        sheet.shape(box(13.7, top - 5.9, 92.6, 5.4), ("#e3eef8", "#fbe9dd")[side], colours[side], 1.0)
+        sheet.text(name, (17, top - 3.2), across="left", bold=True, size=10)
+        sheet.text(words, (103, top - 3.2), across="right", size=9.5, colour="#444444")
         sides[side] += [top, top - 6.4]
         top -= 6.9
     for side, words in ((0, "host: moves members, knows no physics"), (1, "kernels: physics")):
         low, high = min(sides[side]), max(sides[side])
-        ax.text(5, (low + high) / 2, words, rotation=90, ha="center", va="center", color=colours[side], fontsize=10)
-        ax.plot([9.5, 9.5], [low, high], color=colours[side], lw=2)
-    return as_svg(figure)
+        sheet.text(words, (5, (low + high) / 2), colour=colours[side], turn=90, size=10)
+        sheet.line([(9.5, low), (9.5, high)], colours[side], 2)
+    return sheet.svg()

@@ -6,17 +6,18 @@ As a program it prints the shares of each regime and how many members change the
 
 from __future__ import annotations
 
-from itertools import groupby
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import slideway
 import xarray as xr
-from matplotlib.patches import Patch
+from slideway.figures.marks import Axis, Mark, Panel, Shape, Spans, named
 from slideway.palette import colours
+from slideway.plot.axes import picture
 
-from .style import as_svg, axes_of
+from .figures import stretches
 
 speeds = np.linspace(20, 200, 19)  # [rad/s]
 starts = 4
@@ -81,26 +82,20 @@ def row(root: Path, name: str, value: float, tolerance: float = 1e-6) -> list[li
 
 def regimes(root: Path) -> str:
     """Three maps over the speed of the crank; each row has a stripe for each start."""
-    figure, axes = axes_of(3, height=7.6, sharex=True, height_ratios=[len(values) for values in rows.values()])
-    step = speeds[1] - speeds[0]
-    for ax, (name, values) in zip(axes, rows.items(), strict=True):
+    half, panels = (speeds[1] - speeds[0]) / 2, []
+    edges = np.append(speeds - half, speeds[-1] + half)
+    for name, values in rows.items():
+        marks: list[Mark] = []
         for place, value in enumerate(values):
-            of_speed = row(root, name, value)
+            found = np.array(row(root, name, value))
             for start in range(starts):
-                column = 0
-                for regime, run in groupby(cell[start] for cell in of_speed):
-                    length = len(list(run))
-                    where = (speeds[column] - step / 2, length * step)
-                    ax.broken_barh([where], (place - 0.46 + 0.23 * start, 0.23), color=regimes_of[regime], linewidth=0)
-                    column += length
-        ax.set_yticks(range(len(values)), [f"{value:g}" for value in values])
-        ax.set_ylabel(name)
-        ax.set_xlim(speeds[0] - step / 2, speeds[-1] + step / 2)
-        ax.tick_params(length=2)
-    axes[-1].set_xlabel("crank speed [rad/s]")
-    keys = [Patch(facecolor=colour, edgecolor="#444444", linewidth=0.5, label=regime) for regime, colour in regimes_of.items()]
-    figure.legend(handles=keys, loc="outside upper center", ncols=3, frameon=False)
-    return as_svg(figure)
+                low = place - 0.46 + 0.23 * start
+                marks += [Spans(*stretches(edges, found[:, start] == regime), low, 0.23, colour) for regime, colour in regimes_of.items()]
+        marks += [Shape(np.full((3, 2), np.nan), regime, colour, "#444444", 0.5) for regime, colour in regimes_of.items()]  # for the legend
+        across = Axis("crank speed", "rad/s") if len(panels) == 2 else Axis("")
+        across = replace(across, low=edges[0], high=edges[-1])
+        panels.append(Panel(marks, across, Axis(name, ticks=named([f"{value:g}" for value in values]))))
+    return picture(panels, height=7.6, below=3, sharex=True, height_ratios=[len(values) for values in rows.values()])
 
 
 def main() -> None:

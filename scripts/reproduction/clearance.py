@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
-from matplotlib.axes import Axes
 from slideway.figures.marks import Axis, Curve, Level, Panel
 from slideway.palette import colours
-from slideway.plot.axes import draw as plot
 
 from .claims import Claim, Finding, claim, said
 from .estimates import Change, difference, estimate
@@ -83,20 +81,20 @@ def _exception(bench: Bench, of: str, quantity: Quantity, cases: Mapping[str, st
     return claim("Fig. 15a", f"0.22 mm is an exception, with less acceleration than the clearances beside it: {of}.", finding)
 
 
-def _chart(bench: Bench, quantities: dict[str, Quantity], factor: float, words: str, law: str, ax: Axes) -> None:
+def _chart(bench: Bench, quantities: dict[str, Quantity], factor: float, words: str, law: str) -> Panel:
     """From zero, or logarithmic where there are more than two decades to show."""
     curves = [_means(bench, quantity, window, law, colour, dash, f"{name}, {when}", factor) for (name, quantity), colour in zip(quantities.items(), colours)
               for (window, when), dash in zip(WINDOWS.items(), ("--", "-"))]  # fmt: skip
     ends = np.concatenate([end for curve in curves for end in (curve.low, curve.high)])
     wide = wide_range(ends[ends > 0])
-    plot(Panel(curves, Axis("clearance per side", "mm"), Axis(words, log=wide, low=None if wide else 0)), ax)
+    return Panel(curves, Axis("clearance per side", "mm"), Axis(words, log=wide, low=None if wide else 0))
 
 
-def _rod_chart(bench: Bench, law: str, ax: Axes) -> None:
+def _rod_chart(bench: Bench, law: str) -> Panel:
     curves = [_means(bench, rod, window, law, colours[0], dash, when) for (window, when), dash in zip(WINDOWS.items(), ("--", "-"))]
     # At θ = 0 the rod turns with r ω/L.
     free = Level(0.05 * np.pi / 0.1422, label="without clearance", dash=":", width=1.2)
-    plot(Panel([*curves, free], Axis("clearance per side", "mm"), Axis("angular velocity of the rod", "rad/s")), ax)
+    return Panel([*curves, free], Axis("clearance per side", "mm"), Axis("angular velocity of the rod", "rad/s"))
 
 
 def _means(bench: Bench, quantity: Quantity, window: str, law: str, colour: str, dash: str, words: str, factor: float = 1.0) -> Curve:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from matplotlib.axes import Axes
 from slideway.figures.marks import Axis, Curve, Panel
 from slideway.palette import colours
-from slideway.plot.axes import draw as plot
 from slideway.signals import amplitude_spectrum, even_step, running_integral
 
 from .claims import Claim, Finding, claim, said
@@ -109,13 +107,13 @@ def _numbers(bench: Bench) -> Table:
     return by_law("Accelerations of the four cases. Level and frequency are of 0.1 s at 200 kHz.", "case", columns, rows)
 
 
-def _time(bench: Bench, law: str, ax: Axes) -> None:
+def _time(bench: Bench, law: str) -> Panel:
     time = bench.result("carriage", "1", "dense", law)["time"].values
     curve = Curve(1e3 * time, bench.series("carriage", "1", "dense", law, "acceleration_top")[0], width=0.6)
-    plot(Panel([curve], Axis("time", "ms", tight=True), Axis("acceleration, channel 1", "m/s²")), ax)
+    return Panel([curve], Axis("time", "ms", tight=True), Axis("acceleration, channel 1", "m/s²"))
 
 
-def _area(bench: Bench, law: str, ax: Axes) -> None:
+def _area(bench: Bench, law: str) -> Panel:
     curves = []
     for (words, case), colour in zip(CASES.items(), colours):
         time = bench.result("carriage", case, "settled", law)["time"].values
@@ -123,14 +121,14 @@ def _area(bench: Bench, law: str, ax: Axes) -> None:
         # Samples miss most impacts; the law of their sum is right, and its end is the integral over all steps.
         whole = np.nanmean(bench.values("carriage", case, "settled", law, "acceleration_area", "top"))
         curves.append(Curve(time, area * whole / area[-1], words, colour, width=1.6))
-    plot(Panel(curves, Axis("time", "s", tight=True), Axis("∫|a| dt, channel 1", "m/s", low=0)), ax)
+    return Panel(curves, Axis("time", "s", tight=True), Axis("∫|a| dt, channel 1", "m/s", low=0))
 
 
-def _spectra(bench: Bench, law: str, ax: Axes) -> None:
+def _spectra(bench: Bench, law: str) -> Panel:
     curves = []
     for (channel, words), colour in zip(CHANNELS.items(), colours):
         frequency, amplitude = _spectrum(bench, "1", law, channel)
         level = 20 * np.log10(np.sqrt(np.mean(amplitude[:, 1:] ** 2, axis=0)) / GRAVITY)
         curves.append(Curve(frequency[1:] / 1e3, level, words, colour, width=0.7))
     top, low = max(float(curve.y.max()) for curve in curves), min(float(np.quantile(curve.y, 0.02)) for curve in curves)
-    plot(Panel(curves, Axis("frequency", "kHz", log=True, tight=True), Axis("amplitude", "dB re g", low=max(top - 110, low - 8), high=top + 8)), ax)
+    return Panel(curves, Axis("frequency", "kHz", log=True, tight=True), Axis("amplitude", "dB re g", low=max(top - 110, low - 8), high=top + 8))

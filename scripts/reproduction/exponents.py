@@ -10,10 +10,10 @@ from typing import Union
 
 import numpy as np
 import slideway
-from matplotlib.axes import Axes
+from slideway.figures.base import panel_of
+from slideway.figures.chaos import fitted
 from slideway.figures.marks import Axis, Curve, Mark, Panel
 from slideway.palette import colours
-from slideway.plot.axes import draw as plot
 from slideway.units import plus_minus
 
 from .claims import LAWS, UNTOLD, Claim, Finding, Verdict, claim, said
@@ -189,21 +189,18 @@ def _leading(statistics: slideway.SeriesStatistics, label: str) -> float:
     return float(found[1]) if found else float("nan")
 
 
-def _history(bench: Bench, law: str, ax: Axes) -> None:
-    slideway.plot.exponent_history(bench.result("exponent", "0.1mm", "settled", law), ax=ax)
-    # Linear within ±0.1 1/s: a few starts that still ring, at 1e3, would hide on which side of zero the others are.
-    ax.autoscale(axis="y")
-    ax.set_yscale("symlog", linthresh=0.1)
+def _history(bench: Bench, law: str) -> Panel:
+    panel = panel_of(slideway.plot.exponent_history, bench.result("exponent", "0.1mm", "settled", law))
+    # A few starts that still ring, at 1e3, would hide on which side of zero the others are.
+    return replace(panel, y=replace(panel.y, low=None, high=None, linear=0.1))
 
 
-def _divergence(series: Series, law: str, ax: Axes) -> None:
+def _divergence(series: Series, law: str) -> Panel:
     marks: list[Mark] = []
     for number, (_, line) in enumerate(series[law]):
         if line is None:
             continue
         marks.append(Curve(line.time, line.mean_log_distance, "neighbours, each start" if number == 0 else None, opacity=0.7, width=0.8))
         if line.exponent is not None and line.fit is not None:
-            time, values = line.time[line.fit[0] : line.fit[1] + 1], line.mean_log_distance[line.fit[0] : line.fit[1] + 1]
-            fitted = values.mean() + line.exponent * (time - time.mean())
-            marks.append(Curve(time, fitted, "line over 80 samples" if number == 0 else None, colours[1], 0.7, 1.6))
-    plot(Panel(marks, Axis("time", "s", tight=True), Axis("mean ln distance")), ax)
+            marks.append(Curve(*fitted(line, *line.fit), "line over 80 samples" if number == 0 else None, colours[1], 0.7, 1.6))
+    return Panel(marks, Axis("time", "s", tight=True), Axis("mean ln distance"))

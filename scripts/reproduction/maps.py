@@ -6,9 +6,7 @@ from functools import partial
 
 import numpy as np
 import slideway
-from matplotlib.axes import Axes
 from slideway.figures.marks import Axis, Cloud, Panel
-from slideway.plot.axes import draw as plot
 
 from .claims import UNTOLD, Claim, Finding, Verdict, claim, said
 from .estimates import estimate
@@ -123,9 +121,9 @@ def _dimension(bench: Bench) -> Claim:
     return claim("4.7.1", 'The points have "certain fractal dimension characteristics".', finding, verdict)
 
 
-def _map(bench: Bench, clearance: float, law: str, ax: Axes) -> None:
+def _map(bench: Bench, clearance: float, law: str) -> Panel:
     x, vx = _points(bench, clearance, law)[0]
     # A map that repeats is one dot in the room that the clearance leaves, not a magnified rounding error.
     room_x, room_vx = _room(clearance)
     across, up = Axis("x − (r + L)", "nm", low=-2.2e9 * room_x, high=0.1e9 * room_x), Axis("vx", "mm/s", low=-1.3e3 * room_vx, high=1.3e3 * room_vx)
-    plot(Panel([Cloud(1e9 * x, 1e3 * vx, opacity=0.8, size=14)], across, up), ax)
+    return Panel([Cloud(1e9 * x, 1e3 * vx, opacity=0.8, size=14)], across, up)

@@ -6,10 +6,9 @@ from functools import partial
 
 import numpy as np
 import slideway
-from matplotlib.axes import Axes
+from slideway.figures.base import by_contact, panel_of
 from slideway.figures.marks import Axis, Cloud, Panel
 from slideway.palette import class_colours
-from slideway.plot.axes import draw as plot
 
 from .claims import LAWS, Claim, Finding, claim, said
 from .estimates import Change, difference, estimate
@@ -54,7 +53,7 @@ def _share(bench: Bench, law: str, mode: str, window: str = "settled") -> np.nda
 def _classes(bench: Bench, law: str) -> dict[str, np.ndarray]:
     """Which samples are in which class, member × sample."""
     surface, line, point = (bench.series("crank", "0.15mm", "dense", law, f"{mode}s") > 0 for mode in ("surface", "line", "point"))
-    return {"surface": surface, "line": line & ~surface, "point": point & ~line & ~surface}
+    return by_contact(surface, line, point)
 
 
 def _forces(bench: Bench, law: str) -> dict[str, np.ndarray]:
@@ -99,13 +98,13 @@ def _peaks(bench: Bench, window: str) -> Claim:
     return claim("4.2.3, 4.5", f"{words}, {WINDOWS[window]}.", finding)
 
 
-def _histogram(bench: Bench, law: str, ax: Axes) -> None:
-    slideway.plot.force_histogram(bench.result("crank", "0.15mm", "dense", law), ax=ax)
+def _histogram(bench: Bench, law: str) -> Panel:
+    return panel_of(slideway.plot.force_histogram, bench.result("crank", "0.15mm", "dense", law))
 
 
-def _strip(bench: Bench, law: str, ax: Axes) -> None:
+def _strip(bench: Bench, law: str) -> Panel:
     time = bench.result("crank", "0.15mm", "dense", law)["time"].values
     force = bench.series("crank", "0.15mm", "dense", law, "normal_force")[0]
     here = {mode: there[0] & (force > 0) for mode, there in _classes(bench, law).items()}
     clouds = [Cloud(time[on], force[on], mode, class_colours[mode], size=5) for mode, on in here.items() if on.any()]
-    plot(Panel(clouds, Axis("time", "s"), Axis("normal force", "N", log=wide_range(force[force > 0]))), ax)
+    return Panel(clouds, Axis("time", "s"), Axis("normal force", "N", log=wide_range(force[force > 0])))

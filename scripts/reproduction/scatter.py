@@ -7,10 +7,9 @@ from functools import partial
 
 import numpy as np
 import slideway
-from matplotlib.axes import Axes
+from slideway.figures.base import panel_of
 from slideway.figures.marks import Axis, Cloud, Curve, Mark, Panel, named
 from slideway.palette import colours
-from slideway.plot.axes import draw as plot
 
 from .claims import said
 from .estimates import estimate
@@ -98,24 +97,24 @@ def _highest(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
     return np.asarray(bench.series("crank", case, window, law, "y").max(axis=1) + GAPS[case])
 
 
-def _orbit(bench: Bench, case: str, law: str, ax: Axes) -> None:
+def _orbit(bench: Bench, case: str, law: str) -> Panel:
     result = bench.result("crank", case, "settled", law)
-    slideway.plot.orbit_yz(result, member=int(result["member"].values[0]), ax=ax)
+    return panel_of(slideway.plot.orbit_yz, result, member=int(result["member"].values[0]))
 
 
-def _samples(bench: Bench, case: str, law: str, ax: Axes) -> None:
+def _samples(bench: Bench, case: str, law: str) -> Panel:
     time = bench.result("crank", case, "start", law)["time"].values
     force = bench.series("crank", case, "start", law, "normal_force")
     there = force > 1e-3
     samples = Cloud(np.broadcast_to(time, force.shape)[there], force[there], opacity=0.5, size=2)
-    plot(Panel([samples], Axis("time", "s", tight=True), Axis("normal force", "N", log=True)), ax)
+    return Panel([samples], Axis("time", "s", tight=True), Axis("normal force", "N", log=True))
 
 
-def _dots(bench: Bench, law: str, ax: Axes) -> None:
+def _dots(bench: Bench, law: str) -> Panel:
     marks: list[Mark] = []
     for shift, ((window, when), colour) in zip((-0.12, 0.12), zip(WINDOWS.items(), colours)):
         for place, case in enumerate(ALL.values()):
             forces = PEAK(bench, case, window, law)
             marks.append(Cloud(np.full(forces.size, place + shift), forces, when if place == 0 else None, colour, 0.4, 9))
             marks.append(Curve(place + shift + np.array([-0.09, 0.09]), np.full(2, np.nanmean(forces)), colour=colour, width=2))
-    plot(Panel(marks, Axis("", ticks=named([words.replace(", ", "\n") for words in ALL])), Axis("peak normal force", "N", log=True)), ax)
+    return Panel(marks, Axis("", ticks=named([words.replace(", ", "\n") for words in ALL])), Axis("peak normal force", "N", log=True))

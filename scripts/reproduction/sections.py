@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
-import matplotlib
-
-matplotlib.use("agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 import slideway
 import xarray as xr
-from matplotlib.axes import Axes
+from slideway.figures.marks import Panel
+from slideway.plot.axes import png
 
 from .claims import LAW_WORDS, LAWS, Claim, growth, said
 from .estimates import estimate
@@ -156,24 +151,14 @@ def measured(name: str, measure: Callable[[np.ndarray], np.ndarray]) -> Quantity
     return lambda bench, case, window, law: np.asarray(measure(bench.series("crank", case, window, law, name)))
 
 
-def draw(caption: str, painter: Callable[[str, Axes], None], height: float = 3.9) -> Figure:
-    """Paints a figure once for each law.
-
-    Args:
-        painter: gets the law and the axis.
-    """
+def draw(caption: str, panel: Callable[[str], Panel], height: float = 3.9) -> Figure:
+    """Draws a figure once for each law."""
     images: dict[str, bytes | str] = {}
     for law in LAWS:
-        figure, axis = plt.subplots(figsize=(6.2, height), layout="constrained")
         try:
-            painter(law, axis)
-            stream = io.BytesIO()
-            figure.savefig(stream, format="png", dpi=125)
-            images[law] = stream.getvalue()
+            images[law] = png(panel(law), height)
         except (slideway.SlidewayError, Missing) as error:
             images[law] = str(error)
-        finally:
-            plt.close(figure)
     return Figure(caption, images)
 
 

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import slideway
-from pictures.style import as_svg, axes_of, picture
 from slideway.figures.marks import Axis, Curve, Level, Mark, Panel
 from slideway.palette import colours, grey, limit_colour
-from slideway.plot.axes import frame
+from slideway.plot.axes import picture
 
 from . import ideal
 from .machines import Carriage, Press, ideal_press, lifting
@@ -32,29 +31,22 @@ def losses(rigid: list[Outcome], compliant: list[Outcome]) -> str:
 
 def worn(root: Path) -> str:
     """Side force and wear over the way; how the crosshead leans meanwhile, in its second turn."""
-    figure, (above, below) = axes_of(2, height=4.6)
     one = ideal.turn(root, 0.08)
-    above.plot(1e3 * one.x, -one.side, color=colours[0], lw=1.4)
-    frame(above, "place of the slider's centre, and along the way [mm]", "side force down [N]")
     rows = np.loadtxt(root / "scenes/crosshead_wear.csv", delimiter=",", skiprows=1)
-    other = above.twinx()
-    other.plot(*rows.T, "o-", color=grey, ms=3.5, lw=1)
-    other.set_ylabel("wear, share of its depth", color=grey)
-    other.set_ylim(-0.05, 1.1)
-    above.set_ylim(-20, 400)
+    wear = Panel([Curve(*rows.T, colour=grey, width=1, marker="o", size=3.5)], Axis(""), Axis("wear, share of its depth", low=-0.05, high=1.1))
+    place, force = Axis("place of the slider's centre, and along the way", "mm"), Axis("side force down", "N", low=-20, high=400)
+    above = Panel([Curve(1e3 * one.x, -one.side, width=1.4)], place, force, right=wear)
     depths = [0.0, 40.0, 80.0]
     result = slideway.run(root / "scenes/crosshead_space.toml", progress=False, set={
         "study.design": "grid", "study.members": len(depths), "study.vary": {"way_profile.wear.scale": {"dist": "values", "values": depths}},
         "study.verify": 0, "mechanism.start_angle": "90 deg", "study.samples": 2401, "study.quantities": ["energy_residual", "pitch"]})  # fmt: skip
     angle = 90 + np.degrees(ideal.speed) * result.time.values - 360
     last = (angle >= 0) & (angle <= 360)
-    for pitch, depth, colour in zip(result.pitch.values, depths, colours, strict=False):
-        below.plot(angle[last], 1e3 * pitch[last], color=colour, lw=1.2, label=f"{depth:g} µm")
-    below.set_xlim(0, 360)
-    below.set_xticks(range(0, 361, 60))
-    below.legend(frameon=False, loc="upper left", bbox_to_anchor=(0.28, 1.05), title="worn by")
-    frame(below, "crank angle [°]", "pitch [mrad]")
-    return as_svg(figure)
+    leans = [Curve(angle[last], 1e3 * pitch[last], f"worn by {depth:g} µm", colour)
+             for pitch, depth, colour in zip(result.pitch.values, depths, colours, strict=False)]  # fmt: skip
+    ticks = {place: f"{place}" for place in range(0, 361, 60)}
+    below = Panel(leans, Axis("crank angle", "°", low=0, high=360, ticks=ticks), Axis("pitch", "mrad"))
+    return picture([above, below], height=4.8, below=3)
 
 
 def machines(root: Path, presses: list[Press], carriages: list[Carriage]) -> str:

@@ -96,6 +96,30 @@ TEST(Repository, HeadersAreGuarded) {
     }
 }
 
+/// What a line of Python draws by: "matplotlib", "plotly" or text of an "svg".
+Pattern drawing() { return Pattern(R"((?:^\s*(?:import|from) |<)(matplotlib|plotly|svg)\b)"); }
+
+TEST(Repository, OneModuleDrawsByMatplotlibAndOneByPlotly) {
+    Pattern const draws = drawing();
+    std::set<std::string> found;
+    for (SourceFile const& file : files_below({"bench", "examples", "python/examples", "python/slideway", "scripts"})) {
+        if (!file.path.ends_with(".py") || file.path.find("/tests/") != file.path.npos) continue;
+        for (std::string const& line : lines_of(file.text)) {
+            // The type of the axis that a user gives draws nothing.
+            if (line == "    from matplotlib.axes import Axes as Axes") continue;
+            if (auto const by = draws.match_in(line, 1)) found.insert(file.path + ": " + *by);
+        }
+    }
+    EXPECT_EQ(found, (std::set<std::string>{"python/slideway/plot/axes.py: matplotlib", "python/slideway/report/traces.py: plotly"}));
+}
+
+TEST(Repository, DrawingIsFound) {
+    EXPECT_EQ(drawing().match_in("    import matplotlib.pyplot as plt", 1), "matplotlib");
+    EXPECT_EQ(drawing().match_in("from plotly.offline import get_plotlyjs", 1), "plotly");
+    EXPECT_EQ(drawing().match_in(R"(    parts = ['<svg xmlns="http://www.w3.org/2000/svg">'])", 1), "svg");
+    EXPECT_EQ(drawing().match_in("# matplotlib takes its time", 1), std::nullopt);
+}
+
 /// Lines of code, comments and blank lines left aside.
 std::vector<std::string> code_lines(std::string const& text) {
     auto lines = lines_of(code_only(text));

@@ -18,7 +18,9 @@ from ..scenes import scene
 from .marks import Array, Band, Curve, Mark, Note, Panel
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from matplotlib.axes import Axes as Axes
+else:
+    Axes = object  # matplotlib takes its time, which pages need not
 
 Members = Union[int, Sequence[int], None]
 P = ParamSpec("P")
@@ -39,19 +41,16 @@ def drawn(function: Callable[P, Panel]) -> Callable[P, Axes]:
         if "result" in bound.arguments:
             bound.arguments["result"] = with_members(bound.arguments["result"])
         panel = function(*bound.args, **bound.kwargs)
-        from ..plot.axes import draw  # matplotlib takes its time, which pages need not
+        from ..plot.axes import draw
 
         return draw(panel, ax)
 
     return arguments.one_line(plot)
 
 
-def panel_of(plot: Callable[..., Axes], *given: Any, **named: Any) -> Panel | None:
-    """The figure that a plot draws; None where there is nothing to draw."""
-    try:
-        panel: Panel = inspect.unwrap(plot)(*given, **named)
-    except SlidewayError:
-        return None
+def panel_of(plot: Callable[..., Axes], *given: Any, **named: Any) -> Panel:
+    """The figure that a plot draws, as data."""
+    panel: Panel = inspect.unwrap(plot)(*given, **named)
     return panel
 
 
@@ -110,6 +109,15 @@ def chosen(result: xr.Dataset, member: Members) -> list[int]:
     if not there:
         raise SlidewayError('this result holds no members; run it with study.store = "members"')
     return there if member is None else arguments.members(member, there)
+
+
+def by_contact(surface: Array, line: Array, point: Array) -> dict[str, Array]:
+    """Which samples are of which class, by their hardest contact.
+
+    >>> {name: there.tolist() for name, there in by_contact(*np.array([[False, True], [False, True], [True, False]])).items()}
+    {'free': [False, False], 'point': [True, False], 'line': [False, False], 'surface': [False, True]}
+    """
+    return {"free": ~(surface | line | point), "point": point & ~line & ~surface, "line": line & ~surface, "surface": surface}
 
 
 def failures(result: xr.Dataset, members: Sequence[int]) -> int:

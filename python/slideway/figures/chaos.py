@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Union
+from typing import Union
 
 import numpy as np
 import xarray as xr
@@ -13,11 +13,8 @@ from ..members import with_members
 from ..palette import colours
 from ..series_statistics import SeriesStatistics, stats
 from ..units import lowered, plus_minus, scaled
-from .base import Members, chosen, drawn, exponent_of, failures, members_over, variable
-from .marks import Axis, Bars, Curve, Level, Mark, Note, Panel
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .base import Axes, Members, chosen, drawn, exponent_of, failures, members_over, variable
+from .marks import Array, Axis, Bars, Curve, Level, Mark, Note, Panel
 
 
 @drawn
@@ -50,14 +47,18 @@ def divergence(
     factor, unit = scaled("s", curve.time)
     marks: list[Mark] = [Curve(factor * curve.time, curve.mean_log_distance, "neighbours of the series", width=0.8, marker=".")]
     if curve.growth_is_seen and curve.exponent is not None and curve.fit is not None:
-        first, last = curve.fit
-        time, values = curve.time[first : last + 1], curve.mean_log_distance[first : last + 1]
-        line = values.mean() + curve.exponent * (time - time.mean())
-        words = f"λ₁ = ({plus_minus(curve.exponent, curve.error or 0)}) 1/s, samples {first} to {last}"
+        time, line = fitted(curve, *curve.fit)
+        words = f"λ₁ = ({plus_minus(curve.exponent, curve.error or 0)}) 1/s, samples {curve.fit[0]} to {curve.fit[1]}"
         marks.append(Curve(factor * time, line, words, colours[1], width=2.2))
     else:
         marks.append(Note("no exponential growth is seen" if curve.exponent is not None else "no line to fit"))
     return Panel(marks, Axis("time", unit), Axis("mean ln distance"))
+
+
+def fitted(curve: SeriesStatistics, first: int, last: int) -> tuple[Array, Array]:
+    """Times of the first to the last sample of a fit, and the line through them."""
+    time, values = curve.time[first : last + 1], curve.mean_log_distance[first : last + 1]
+    return time, values.mean() + (curve.exponent or 0.0) * (time - time.mean())
 
 
 @drawn

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..palette import colours, grey
 
 Array = NDArray[Any]
+Place = Union[Sequence[float], Array]  # x and y
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Axis:
     Attributes:
         ticks: names of places, instead of numbers.
         tight: ends where the data end.
+        linear: of a logarithmic axis with both signs, up to where it is linear.
     """
 
     words: str
@@ -30,6 +32,7 @@ class Axis:
     high: float | None = None
     ticks: Mapping[float, str] | None = None
     tight: bool = False
+    linear: float = 0.0
 
     @property
     def label(self) -> str:
@@ -49,7 +52,7 @@ class Curve:
     Attributes:
         low, high: ends of the points' intervals along `along`, NaN where an end is not known.
         steps: the value of a point holds up to the next one.
-        behind: drawn below all else, for comparison.
+        order: what has more lies above; left out: as the kind of mark does.
     """
 
     x: Array
@@ -66,7 +69,7 @@ class Curve:
     high: Array | None = None
     along: str = "y"
     steps: bool = False
-    behind: bool = False
+    order: float | None = None
 
 
 @dataclass(frozen=True)
@@ -156,7 +159,88 @@ class Note:
     label: str
 
 
-Mark = Union[Curve, Cloud, Band, Bars, Rows, Level, Box, Density, Note]
+@dataclass(frozen=True)
+class Spans:
+    """Stretches of x that are filled from a height on: their starts and lengths (n)."""
+
+    x: Array
+    lengths: Array
+    low: float
+    height: float
+    colour: str
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A polygon of points (n, 2): its area, where it has a `fill`, and its outline, where it has an `edge`."""
+
+    points: Array
+    label: str | None = None
+    fill: str = "none"
+    edge: str = "none"
+    width: float = 1.0
+    dash: str = "-"
+    opacity: float = 1.0
+    order: float | None = None
+
+
+@dataclass(frozen=True)
+class Text:
+    """Words at a place.
+
+    Attributes:
+        across, up: which part of them is there, as matplotlib's ha and va.
+        paper: the colour below them.
+        inside: x and y are shares of the axes.
+    """
+
+    x: float
+    y: float
+    words: str
+    colour: str = grey
+    size: float | None = None
+    across: str = "center"
+    up: str = "center"
+    paper: str = "none"
+    italic: bool = False
+    bold: bool = False
+    turn: float = 0.0
+    inside: bool = False
+    order: float | None = None
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """From one place to another; `head` as matplotlib's arrowstyle, `size` of the head in points."""
+
+    start: Place
+    end: Place
+    colour: str = "#222222"
+    width: float = 1.3
+    head: str = "-|>"
+    size: float = 10.0
+    order: float | None = None
+
+
+@dataclass(frozen=True)
+class Moving:
+    """A mark of one piece that moves over the frames of a film.
+
+    Attributes:
+        shift: from where it is drawn (frames, 2).
+        about: what it turns about and is stretched from.
+        turn: anticlockwise, in degrees (frames).
+        stretch: of its length along x (frames).
+    """
+
+    mark: Union[Curve, Shape]
+    shift: Array
+    about: Place = (0.0, 0.0)
+    turn: Array | None = None
+    stretch: Array | None = None
+
+
+Mark = Union[Curve, Cloud, Band, Bars, Rows, Level, Box, Density, Note, Spans, Shape, Text, Arrow, Moving]
 
 
 @dataclass(frozen=True)
@@ -166,6 +250,11 @@ class Panel:
     Attributes:
         equal: both axes have one scale.
         stacked: bars of :class:`Rows` follow each other.
+        legend: its place, as matplotlib's loc; left out: where nothing is covered; "none": no legend.
+        margin: beside the data, as a share of them.
+        right: marks of another axis at the right, over the same x.
+        bare: a drawing, without axes, as large as the figure.
+        seconds: of the film that :class:`Moving` marks make.
     """
 
     marks: Sequence[Mark]
@@ -174,6 +263,11 @@ class Panel:
     title: str = ""
     equal: bool = False
     stacked: bool = False
+    legend: str = ""
+    margin: float | None = None
+    right: Panel | None = None
+    bare: bool = False
+    seconds: float = 0.0
 
 
 def reach(values: Array, low: Array | None, high: Array | None) -> Array:

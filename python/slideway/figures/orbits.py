@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -15,11 +15,8 @@ from ..scenes import scene
 from ..sections import sections
 from ..units import lowered, scaled
 from ..way import across, may_be_misaligned, mean_clearance
-from .base import Members, chosen, drawn, exponent_of, most_lines, variable, words_of
+from .base import Axes, Members, chosen, drawn, exponent_of, most_lines, variable, words_of
 from .marks import Array, Axis, Box, Cloud, Curve, Density, Level, Mark, Note, Panel
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 @drawn

@@ -5,18 +5,15 @@ from __future__ import annotations
 import csv
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import Any, Union
 
 import numpy as np
 
 from ..arguments import path, shown, text
 from ..errors import SlidewayError
 from ..palette import colours
-from .base import drawn, words_of
+from .base import Axes, drawn, words_of
 from .marks import Axis, Curve, Panel
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Table = Union[str, "os.PathLike[str]", Mapping[str, Sequence[Any]]]
 _markers = "os^Dv<>P"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -16,14 +15,10 @@ from ..scenes import scene, varied
 from ..signals import amplitude_spectrum, even_step, running_integral
 from ..units import scaled, spelled
 from ..way import across, may_be_misaligned, mean_clearance
-from .base import Members, chosen, drawn, failures, kind_of, members_over, most_lines, series_of, variable, words_of
+from .base import Axes, Members, by_contact, chosen, drawn, failures, kind_of, members_over, most_lines, series_of, variable, words_of
 from .marks import Axis, Band, Bars, Curve, Level, Mark, Note, Panel
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 standard_gravity = 9.80665  # m/s²
-_classes = ("point", "line", "surface")
 
 
 @drawn
@@ -71,7 +66,7 @@ def time_series(
     marks: list[Mark] = []
     if background is not None:
         of = "axis of the way" if name in ("y", "z") else "ideal mechanism"
-        marks.append(Curve(second * time, factor * background, of, grey, 0.6, 2.5, behind=True))
+        marks.append(Curve(second * time, factor * background, of, grey, 0.6, 2.5, order=1))
     clearance = _clearance(result, members, name) if gap and background is not None and not difference else None
     if clearance is not None:
         marks += [Level(factor * end, label=label, dash=":") for end, label in ((clearance, "clearance"), (-clearance, None))]
@@ -208,10 +203,8 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
 
     force = taken("normal_force")
     there = np.isfinite(force)
-    line = taken("lines") > 0 if lines else np.zeros_like(there)
-    surface, point = taken("surfaces") > 0, taken("points") > 0
-    of_class = {"surface": surface, "line": line & ~surface, "point": point & ~line & ~surface}
-    touching = surface | line | point
+    of_class = by_contact(taken("surfaces") > 0, taken("lines") > 0 if lines else np.zeros_like(there), taken("points") > 0)
+    touching = ~of_class.pop("free")
     pushing = touching & (force > 0)  # damping takes the force of some contacts that open
     if not pushing.any():
         raise SlidewayError("the slider touches nothing at any sample; run it longer or with more samples")
@@ -221,9 +214,9 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     edges = factor * np.geomspace(max(low, 1e-6 * high), high * 1.0001, bins + 1)
     least = 100 / there.sum()  # one sample
     marks: list[Mark] = []
-    for name in _classes:
-        counts = np.histogram(factor * force[of_class[name]], edges)[0] * least
-        share = of_class[name].sum() / there.sum()
+    for name, own in of_class.items():
+        counts = np.histogram(factor * force[own], edges)[0] * least
+        share = own.sum() / there.sum()
         heights = np.maximum(counts, 0.5 * least)
         marks.append(Bars(edges, heights, f"{name}, {share:.2%} of the time", class_colours[name], base=0.5 * least, outlined=True))
     marks.append(Note(f"free flight, {1 - touching.sum() / there.sum():.2%}"))

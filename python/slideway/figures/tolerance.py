@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -16,11 +16,8 @@ from ..palette import class_colours, colours, limit_colour
 from ..results import holds_all
 from ..scenes import scene
 from ..units import scaled
-from .base import drawn, variable, words_of
+from .base import Axes, drawn, variable, words_of
 from .marks import Axis, Band, Curve, Level, Mark, Panel, Rows, named
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 @drawn

@@ -6,11 +6,11 @@
 """
 
 from ..figures.chaos import divergence, exponent_histogram, exponent_history
+from ..figures.forces import apex_forces
 from ..figures.orbits import bifurcation, exponent_sweep, orbit_yz, poincare
 from ..figures.precision import work_precision
 from ..figures.series import cumulative_area, force_histogram, spectrum, time_series
 from ..figures.tolerance import quantiles, sensitivity
-from .explanation import apex_forces
 
 __all__ = [
     "apex_forces", "bifurcation", "cumulative_area", "divergence", "exponent_histogram", "exponent_history", "exponent_sweep", "force_histogram",

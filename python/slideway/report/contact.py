@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from slideway.way import APEX_SIGNS
+
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# Signs (along X, Y, Z) of the apices P1 ... P8.
-APEX_SIGNS = np.array([[1, 1, 1], [1, -1, 1], [1, -1, -1], [1, 1, -1], [-1, 1, 1], [-1, -1, 1], [-1, -1, -1], [-1, 1, -1]], dtype=float)
 # Faces as rings of apices, so that neighbours in a ring share an edge; numbers from 0.
 Y_FACES = ((0, 3, 7, 4), (1, 2, 6, 5))  # top, bottom
 Z_FACES = ((0, 1, 5, 4), (3, 2, 6, 7))  # front, back

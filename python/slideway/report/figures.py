@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -12,8 +13,9 @@ import xarray as xr
 import slideway
 from slideway.columns import Column, group_of
 from slideway.distribution import ran, whose
-from slideway.figures import chaos, orbits, series, tolerance
-from slideway.figures.base import panel_of, words_of
+from slideway.errors import SlidewayError
+from slideway.figures import base, chaos, orbits, series, tolerance
+from slideway.figures.base import words_of
 from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Mark, Panel, Rows, named
 from slideway.palette import class_colours, colours, limit_colour
 from slideway.sampling import sample_axis, too_coarse
@@ -61,6 +63,14 @@ def _of(name: str, title: str, caption: str, variants: Variants, height: int = 3
     """A figure of the variants that there are."""
     kept = [Variant(label, [panels] if isinstance(panels, Panel) else panels) for label, panels in variants if panels]
     return Figure(name, title, caption, kept, height, choice) if kept else None
+
+
+def panel_of(plot: Callable[..., base.Axes], *given: Any, **named: Any) -> Panel | None:
+    """The figure that a plot draws; None where there is nothing to draw."""
+    try:
+        return base.panel_of(plot, *given, **named)
+    except SlidewayError:
+        return None
 
 
 def _names(result: xr.Dataset) -> list[str]:

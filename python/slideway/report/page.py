@@ -25,7 +25,7 @@ from .findings import exponent_words, yields
 from .markup import Section, data_block, tag, words
 from .members import chosen
 from .numbers import counted, percent
-from .traces import Figure, plot
+from .traces import Figure, library, plot
 
 # Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'"
@@ -197,9 +197,7 @@ def _footer(result: xr.Dataset) -> str:
 def _scripts(figures: dict[str, Figure], film: Film | str) -> str:
     blocks = ""
     if figures:
-        from plotly.offline import get_plotlyjs
-
-        blocks += tag("script", get_plotlyjs())
+        blocks += tag("script", library())
     data = {figure.name: {"height": figure.height, "variants": [plot(variant.panels) for variant in figure.variants]} for figure in figures.values()}
     blocks += data_block("figures", data)
     if not isinstance(film, str):

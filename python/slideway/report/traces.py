@@ -1,4 +1,4 @@
-"""Figures drawn by plotly.js: panels as its traces and layout, with packed numbers and colours by the page's names."""
+"""Figures drawn by plotly.js, in the one place that knows it: panels as its traces and layout, with packed numbers and colours by the page's names."""
 
 from __future__ import annotations
 
@@ -41,10 +41,16 @@ class Figure:
     choice: str = "Show"  # label of the choice between variants
 
 
+def library() -> str:
+    """The text of plotly.js, which reads what :func:`plot` makes."""
+    from plotly.offline import get_plotlyjs  # takes its time
+
+    return str(get_plotlyjs())
+
+
 def packed(values: ArrayLike, kind: str = "f4") -> dict[str, str]:
     """Numbers as plotly.js and the animation read them: {"dtype", "bdata"}, little-endian, base64; f4 holds seven digits.
 
-    >>> from slideway.report.traces import packed
     >>> packed([1, 2], "u1")
     {'dtype': 'u1', 'bdata': 'AQI='}
     """
@@ -60,7 +66,6 @@ def text(words: object) -> str:
 def colour(of: str, opacity: float = 1.0) -> str:
     """A colour of the palette as the page knows it.
 
-    >>> from slideway.report.traces import colour
     >>> colour("#0b6bb8", 0.5), colour("#8b96a2"), colour("#123456")
     ('@c1/0.5', '@free', '#123456')
     """
@@ -70,7 +75,6 @@ def colour(of: str, opacity: float = 1.0) -> str:
 def thinned(values: NDArray[Any], most: int = MOST_POINTS) -> NDArray[np.int64]:
     """Which points of a long series to draw: of each stretch the least and the largest, in their order.
 
-    >>> from slideway.report.traces import thinned
     >>> spike = np.zeros(10000); spike[4321] = 1.0
     >>> kept = thinned(spike, 100)
     >>> len(kept) <= 100, 4321 in kept
@@ -100,9 +104,10 @@ def plot(panels: Sequence[Panel]) -> dict[str, Any]:
                 layout["shapes"] += shapes
                 layout["annotations"] += notes
             else:
-                named = {"name": text(mark.label or panel.y.words), "showlegend": mark.label is not None and mark.label not in told, **of_row}
+                label = getattr(mark, "label", None)
+                named = {"name": text(label or panel.y.words), "showlegend": label is not None and label not in told, **of_row}
                 data += [{**named, **trace} for trace in _traces(mark, panel, edges)]
-                told.add(mark.label or "")
+                told.add(label or "")
         if panel.stacked:
             layout |= {"barmode": "stack", "legend": {"traceorder": "normal"}}
     if layout["annotations"]:
