@@ -7,9 +7,7 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
-
+from . import plot, report  # matplotlib and plotly, which take their time, come when something is drawn
 from ._version import __version__
 from .accessor import ResultAccessor
 from .control_variates import ControlVariate, control_variate
@@ -30,26 +28,9 @@ from .sections import sections
 from .series_statistics import SeriesStatistics, stats
 from .tables import members_table, series
 
-if TYPE_CHECKING:
-    from . import plot, report
-
 __all__ = [
     "ControlVariate", "Ensemble", "Explanation", "FileError", "Key", "Keys", "Module", "Resolution", "ResultAccessor", "RunError", "SceneError",
     "SeriesStatistics", "SlidewayError", "StoppedEarly", "TooManyFailures", "__version__", "compile", "control_variate", "example", "explain",
     "exponent_signs", "finished", "groups", "info", "keys", "members_table", "merge", "open", "plot", "report", "resolution", "run", "run_part", "scene",
     "sections", "series", "stats", "statuses", "tree",
 ]  # fmt: skip
-
-
-_at_first_use = ("plot", "report")  # matplotlib takes its time
-
-
-def __getattr__(name: str) -> Any:
-    """slideway.plot and slideway.report are imported when they are first used."""
-    if name in _at_first_use:
-        return importlib.import_module(f".{name}", __name__)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -149,6 +149,22 @@ def positive(value: object, name: str) -> float:
     if not fits or not 0 < float(value) < float("inf"):  # type: ignore[arg-type]
         raise SlidewayError(f"{name} is {shown(value)}; give a number > 0")
     return float(value)  # type: ignore[arg-type]
+
+
+def overrides(given: Any, words: Mapping[str, Any], unknown: Callable[[str], str]) -> dict[str, Any]:
+    """Dotted keys of a scene and their values: those of the argument `set`, and words with two underscores for the dot.
+
+    Args:
+        unknown: what to say of a word that has none.
+    """
+    if given is not None and not isinstance(given, Mapping):
+        raise SlidewayError(f'set is {shown(given)}; give keys and their values: {{"joint.clearance": "0.2 mm"}}')
+    named = {text(key, "a key of set"): value for key, value in (given or {}).items()}
+    for word, value in words.items():
+        if "__" not in word:
+            raise SlidewayError(unknown(word))
+        named[word.replace("__", ".")] = value
+    return named
 
 
 def members(value: Any, there: Sequence[int], name: str = "member") -> list[int]:

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from .members import numbers, statuses
+from .members import counts, numbers, statuses
 from .scenes import scene
 
 Array = NDArray[np.float64]
@@ -44,10 +44,7 @@ def ran(result: xr.Dataset) -> int:
     """
     if "status" in result.data_vars:
         return int(((statuses(result) != "not_run").values & drawn(result)).sum())
-    words = str(result["status_value"].attrs["flag_meanings"]).split()
-    by_value = dict(zip(np.atleast_1d(result["status_value"].attrs["flag_values"]).tolist(), words, strict=True))
-    pairs = zip(result["status_value"].values.tolist(), result["status_count"].values.tolist(), strict=True)
-    return int(sum(count for value, count in pairs if by_value[value] != "not_run"))
+    return sum(count for status, count in counts(result).items() if status != "not_run")
 
 
 def steps(values: ArrayLike, trials: int) -> tuple[Array, Array]:
@@ -76,7 +73,6 @@ def bounds(edges: Array, counts: Array, trials: int) -> tuple[Array, Array, Arra
     Returns:
         Ends of each bin (2n), and there the least and the largest percentage that the function can have.
 
-    >>> import numpy as np
     >>> [part.tolist() for part in bounds(np.array([0.0, 1.0, 2.0]), np.array([1.0, 3.0]), 4)]
     [[0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 25.0, 25.0], [25.0, 25.0, 100.0, 100.0]]
     """

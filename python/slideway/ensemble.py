@@ -286,11 +286,5 @@ def _refilled(known: xr.Dataset, arrays: Mapping[str, NDArray[Any]]) -> xr.Datas
 
 
 def _settings(given: Mapping[str, Any] | None, words: Mapping[str, Any]) -> list[tuple[str, str]]:
-    if given is not None and not isinstance(given, Mapping):
-        raise SlidewayError(f'set is {arguments.shown(given)}; give keys and their values: {{"joint.clearance": "0.2 mm"}}')
-    named = {arguments.text(key, "a key of set"): value for key, value in (given or {}).items()}
-    for word, value in words.items():
-        if "__" not in word:
-            raise SlidewayError(f"there is no argument {word}; keys of the scene have two underscores, as in study__members=64")
-        named[word.replace("__", ".")] = value
+    named = arguments.overrides(given, words, lambda word: f"there is no argument {word}; keys of the scene have two underscores, as in study__members=64")
     return [(key, to_value(value, key)) for key, value in named.items()]

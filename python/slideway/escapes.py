@@ -12,7 +12,6 @@ _OBEYED = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202
 def escaped(text: str) -> str:
     r"""The text with such characters as ``\uNNNN``, and bytes that are no UTF-8 as ``\xNN``.
 
-    >>> from slideway.escapes import escaped
     >>> print(escaped("a \x9b2J \u202e b\udcff"))
     a \u009b2J \u202e b\xff
     """

@@ -22,7 +22,6 @@ def ideal(scene: Mapping[str, Any], variable: str, time: np.ndarray) -> np.ndarr
         Its values at these times in its own unit, or None where there is no ideal motion to compare with: of forces, of a
         slider that nothing drives along the way or whose pin is not in its hole's centre, or of what no part of the mechanism prescribes.
 
-    >>> import numpy as np
     >>> ideal(slideway.scene(slideway.example()), "x", np.array([0.0, 1.0])).round(4)
     array([0.1922, 0.0922])
     """
@@ -59,7 +58,6 @@ def rod_reach(crank_length: float, rod_length: float, angle: np.ndarray, y: Any 
     Args:
         crank_length r, rod_length L [m]; angle θ [rad]; y, z: of the rod's end [m], on the axis where they are left out.
 
-    >>> import numpy as np
     >>> rod_reach(3.0, 5.0, np.array([0.0, np.pi / 2])).tolist()
     [8.0, 4.0]
     """

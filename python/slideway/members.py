@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import numpy as np
 import xarray as xr
 
@@ -25,10 +27,7 @@ def statuses(result: xr.Dataset) -> xr.DataArray:
     if "status" not in dataset(result).data_vars:
         raise SlidewayError('this result holds no members, for its scene says study.store = "statistics"; its group statistics counts how they ended')
     status = result["status"]
-    if not {"flag_meanings", "flag_values"} <= status.attrs.keys():
-        raise SlidewayError("the statuses have lost their meanings; keep the attributes of what slideway.open returned")
-    words = str(status.attrs["flag_meanings"]).split()
-    by_value = dict(zip((int(value) for value in np.atleast_1d(status.attrs["flag_values"])), words, strict=True))
+    by_value = _meanings(status)
     said = [by_value.get(int(value), f"status {int(value)}") for value in np.ravel(status.values)]
     return xr.DataArray(
         np.array(said, dtype="<U15").reshape(status.shape),
@@ -39,16 +38,24 @@ def statuses(result: xr.Dataset) -> xr.DataArray:
     )
 
 
-def failed_and_all(result: xr.Dataset) -> tuple[int, int]:
-    """How many members failed, and how many there are, also of a result that holds statistics alone.
+def counts(result: xr.Dataset) -> Counter[str]:
+    """How many members ended how, also of a result that holds statistics alone.
 
-    >>> failed_and_all(slideway.example())
-    (1, 12)
+    >>> counts(slideway.example())
+    Counter({'finished': 11, 'max_steps': 1})
     """
     if "status" in result.data_vars:
-        return int(np.count_nonzero(result["status"])), result["status"].size
-    counts = result["status_count"].values
-    return int(counts[1:].sum()), int(counts.sum())
+        return Counter(map(str, statuses(result).values))
+    meanings = _meanings(result["status_value"])
+    every = zip(result["status_value"].values.tolist(), result["status_count"].values.tolist(), strict=True)
+    return Counter({meanings[value]: int(count) for value, count in every if count > 0})
+
+
+def _meanings(status: xr.DataArray) -> dict[int, str]:
+    """The words for each value of a status."""
+    if not {"flag_meanings", "flag_values"} <= status.attrs.keys():
+        raise SlidewayError("the statuses have lost their meanings; keep the attributes of what slideway.open returned")
+    return dict(zip(map(int, np.atleast_1d(status.attrs["flag_values"])), str(status.attrs["flag_meanings"]).split(), strict=True))
 
 
 @one_line

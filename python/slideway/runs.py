@@ -14,7 +14,7 @@ from . import arguments
 from .ensemble import Ensemble, is_available
 from .errors import SlidewayError, TooManyFailures
 from .keys import nearest_key
-from .members import failed_and_all
+from .members import counts
 from .program import Interrupted, call, error_of, find_program, follow
 from .results import StrPath, file_of, open_temporary
 from .results import open as open_result
@@ -159,7 +159,9 @@ def _in_memory(
     for warning in ensemble.warnings_before_run(of_starts=any_start):
         print(f"warning: {warning}", file=sys.stderr, flush=True)
     computed = ensemble.run(progress=bool(progress), any_start=any_start)
-    failed, all_members = failed_and_all(computed)
+    ended = counts(computed)
+    all_members = ended.total()
+    failed = all_members - ended["finished"]
     share = limit.endswith("%")
     if failed > float(limit.rstrip("%")) * (all_members / 100 if share else 1):
         raise TooManyFailures(3, f"slideway: {failed} of {all_members} members failed, more than --max-failures {limit}", "", computed)
@@ -197,12 +199,8 @@ def _stem(path: str) -> str:
 
 
 def _all_overrides(given: Mapping[str, Any] | None, words: Mapping[str, Any], program: str | None) -> dict[str, Any]:
-    if given is not None and not isinstance(given, Mapping):
-        raise SlidewayError(f'set is {arguments.shown(given)}; give keys and their values: {{"joint.clearance": "0.2 mm"}}')
-    named = {arguments.text(key, "a key of set"): value for key, value in (given or {}).items()}
-    for word, value in words.items():
-        if "__" not in word:
-            hint = nearest_key(word, program) or "; keys of the scene have two underscores, as in study__members=64 (slideway.keys() has all)"
-            raise SlidewayError(f"run() has no argument {word}{hint}")
-        named[word.replace("__", ".")] = value
-    return named
+    def unknown(word: str) -> str:
+        hint = nearest_key(word, program) or "; keys of the scene have two underscores, as in study__members=64 (slideway.keys() has all)"
+        return f"run() has no argument {word}{hint}"
+
+    return arguments.overrides(given, words, unknown)

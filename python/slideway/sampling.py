@@ -25,7 +25,6 @@ def unexplained(time: NDArray[np.float64], values: NDArray[np.float64], rates: N
     Returns:
         NaN of fewer than three samples.
 
-    >>> import numpy as np
     >>> t = np.linspace(0, 2, 201)
     >>> unexplained(t, np.sin(5 * t), 5 * np.cos(5 * t)) < 0.01, unexplained(t, np.sin(500 * t), 500 * np.cos(500 * t)) > 0.5
     (True, True)

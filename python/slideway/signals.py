@@ -23,7 +23,6 @@ def amplitude_spectrum(values: np.ndarray, step: float) -> tuple[np.ndarray, np.
     Raises:
         SlidewayError: fewer than 8 samples.
 
-    >>> import numpy as np
     >>> f, a = amplitude_spectrum(3 * np.sin(2 * np.pi * 50 * np.arange(1000) / 1000), 1e-3)
     >>> float(f[a.argmax()]), round(float(a.max()), 6)
     (50.0, 3.0)
@@ -46,7 +45,6 @@ def even_step(time: np.ndarray) -> float:
     Raises:
         SlidewayError: they are not evenly spaced.
 
-    >>> import numpy as np
     >>> even_step(np.array([0.0, 0.5, 1.0]))
     0.5
     """
@@ -63,7 +61,6 @@ def even_step(time: np.ndarray) -> float:
 def running_integral(values: np.ndarray, time: np.ndarray) -> np.ndarray:
     """∫ values dt from the first sample on, by trapezoids, along the last axis.
 
-    >>> import numpy as np
     >>> running_integral(np.array([1.0, 1.0, 3.0]), np.array([0.0, 1.0, 2.0]))
     array([0., 1., 3.])
     """

@@ -28,7 +28,6 @@ def rotation(roll: Any, yaw: Any, pitch: Any) -> Array:
     Returns:
         (..., 3, 3); columns are the body's axes.
 
-    >>> import numpy as np
     >>> bool(np.allclose(rotation(0.0, 0.0, np.pi / 2) @ [1, 0, 0], [0, 1, 0]))
     True
     """
@@ -109,7 +108,6 @@ def along(resolved: Mapping[str, Any], time: Array, y: Array, z: Array, crank: A
 def place(resolved: Mapping[str, Any], x: Array | None, y: Array, z: Array) -> Array | None:
     """The slider's centre in the way's frame [m], p = A_lᵀ (u − u_l), (..., 3); None where that takes an x that is not known.
 
-    >>> import numpy as np
     >>> tilted = {"mechanism": {"kind": "carriage"}, "way": {"offset_y": 2e-3, "pitch": np.pi / 6}}
     >>> place(tilted, np.array([1.0]), np.array([2e-3]), np.array([0.0])).round(3).tolist()
     [[0.866, -0.5, 0.0]]

@@ -12,11 +12,18 @@ import matplotlib.pyplot as plt
 import pytest
 import slideway
 import xarray as xr
+from matplotlib.axes import Axes
 
 matplotlib.use("Agg")
 
 root = Path(__file__).resolve().parents[2]
 scenes = root / "scenes"
+Result = Callable[[str], xr.Dataset]  # of a recipe
+
+
+def labels_of(ax: Axes) -> list[str]:
+    """What a legend names, or would name."""
+    return [str(label) for label in ax.get_legend_handles_labels()[1]]
 
 
 def slow(*values: Any) -> list[Any]:
@@ -51,6 +58,13 @@ recipes: dict[str, tuple[str, dict[str, object]]] = {
     "failing": ("ensemble_starts.toml", {
         "study.members": 8, "study.samples": 11, "study.duration": "20 ms", "integrator.max_steps": 40}),
 }
+
+
+small: dict[str, Any] = {
+    "schema": 1,
+    "study": {"kind": "ensemble", "members": 6, "duration": "1 ms", "quantities": ["peak_normal_force"],
+              "vary": {"joint.clearance": {"dist": "unif", "low": "50 um", "high": "0.1 mm"}}},
+}  # fmt: skip
 
 
 @pytest.fixture(autouse=True)

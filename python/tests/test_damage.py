@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import warnings
-from collections.abc import Callable
 from pathlib import Path
 
 import netCDF4
@@ -12,8 +11,8 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import Result
 
-Result = Callable[[str], xr.Dataset]
 format_1, format_2 = (Path(__file__).resolve().parents[2] / "tests" / "formats" / f"result_{k}.nc" for k in (1, 2))
 
 

@@ -16,10 +16,9 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
-from conftest import slow
+from conftest import scenes, slow
 from slideway.program import call
 
-scenes = Path(__file__).parents[2] / "scenes"
 small: dict[str, Any] = {
     "schema": 1,
     "contact": {"law": "paper"},

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import slideway
-import xarray as xr
+from conftest import Result
 from matplotlib.text import Annotation
-
-Result = Callable[[str], xr.Dataset]
 
 
 @pytest.fixture(scope="module")

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import Result
 from slideway.exponent_signs import half_width_of_mean
 from slideway.program import call
 from slideway.report.findings import exponent_words
 
-Result = Callable[[str], xr.Dataset]
 grows_like_t = "no growth beyond a power of time"
 
 

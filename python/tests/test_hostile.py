@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import Result
 
-Result = Callable[[str], xr.Dataset]
 plot = slideway.plot
 short = {"schema": 1, "study": {"kind": "ensemble", "members": 2, "duration": "1 ms", "quantities": ["peak_tilt"]}}
 

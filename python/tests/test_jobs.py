@@ -14,9 +14,9 @@ from types import ModuleType
 import numpy as np
 import pytest
 import slideway
+from conftest import root
 from scipy.stats import beta, binom
 
-root = Path(__file__).resolve().parents[2]
 script = root / "examples/jobs/fit.py"
 LIMIT, WANTED = 40e-3, 0.999
 

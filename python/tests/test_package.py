@@ -15,9 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 import slideway
-from conftest import slow
-
-root = Path(__file__).resolve().parents[2]
+from conftest import root, slow
 
 
 def python_blocks(document: str) -> list[str]:

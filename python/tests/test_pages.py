@@ -11,9 +11,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import slow
+from conftest import root, slow
 
-root = Path(__file__).resolve().parents[2]
 
 # Stands in for the program on the path of the shell: runs are shortened, everything else is as it is.
 SHORT = """#!{python}

@@ -5,16 +5,10 @@ from __future__ import annotations
 import fcntl
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 import slideway
-
-small: dict[str, Any] = {
-    "schema": 1,
-    "study": {"kind": "ensemble", "members": 6, "duration": "1 ms", "quantities": ["peak_normal_force"],
-              "vary": {"joint.clearance": {"dist": "unif", "low": "50 um", "high": "0.1 mm"}}},
-}  # fmt: skip
+from conftest import small
 
 
 @pytest.fixture

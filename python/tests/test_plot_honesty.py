@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import slideway
-import xarray as xr
+from conftest import Result, labels_of
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.transforms import Bbox
@@ -17,12 +17,7 @@ from slideway import palette
 from slideway.columns import columns
 from slideway.sampling import too_coarse
 
-Result = Callable[[str], xr.Dataset]
 plot = slideway.plot
-
-
-def labels_of(ax: Axes) -> list[str]:
-    return [str(label) for label in ax.get_legend_handles_labels()[1]]
 
 
 def at(ax: Axes, value: float) -> float:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import Result, labels_of, root
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from slideway.units import scaled
 
-Result = Callable[[str], xr.Dataset]
 plot = slideway.plot
-root = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture
@@ -28,10 +26,6 @@ def ax() -> Iterator[Axes]:
         warnings.simplefilter("error", UserWarning)  # of layout and missing glyphs
         figure.canvas.draw()
     plt.close(figure)
-
-
-def legend_of(ax: Axes) -> list[str]:
-    return [str(label) for label in ax.get_legend_handles_labels()[1]]
 
 
 def dots_of(ax: Axes) -> np.ndarray:
@@ -73,17 +67,17 @@ def test_time_series_of_many_members_are_bands_around_the_median(result_of: Resu
     plot.time_series(result, "y", ax=ax)
     median = next(line for line in ax.lines if line.get_label() == "median")
     np.testing.assert_allclose(median.get_ydata(), 1e6 * np.median(result.y.values, axis=0))
-    assert "all 64 members" in legend_of(ax)
+    assert "all 64 members" in labels_of(ax)
 
 
 def test_time_series_of_chosen_members_are_lines(result_of: Result, ax: Axes) -> None:
     plot.time_series(result_of("ensemble"), "vy", member=[3, 11], ax=ax)
-    assert legend_of(ax)[-2:] == ["member 3", "member 11"]
+    assert labels_of(ax)[-2:] == ["member 3", "member 11"]
 
 
 def test_time_series_counts_members_that_failed(ax: Axes) -> None:
     plot.time_series(slideway.example(), "y", ax=ax)
-    assert "all 12 members (1 failed)" in legend_of(ax)
+    assert "all 12 members (1 failed)" in labels_of(ax)
 
 
 def test_series_of_members_that_all_failed_can_be_drawn(result_of: Result, ax: Axes) -> None:
@@ -103,7 +97,7 @@ def test_force_histogram_tells_the_time_in_each_class(result_of: Result, ax: Axe
     plot.force_histogram(result, ax=ax)
     hard = np.where(result.surfaces > 0, "surface", np.where(result.lines > 0, "line", np.where(result.points > 0, "point", "free")))
     shares = {name: float((hard == name).mean()) for name in ("point", "line", "surface", "free")}
-    words = legend_of(ax)
+    words = labels_of(ax)
     assert words[0] == f"point, {shares['point']:.2%} of the time"
     assert words[1] == f"line, {shares['line']:.2%} of the time"
     assert words[3] == f"free flight, {shares['free']:.2%}"
@@ -142,7 +136,7 @@ def test_divergence_has_a_line_of_the_fitted_slope(ax: Axes) -> None:
     x, y = line.get_xdata(), line.get_ydata()
     assert (y[-1] - y[0]) / (x[-1] - x[0]) == pytest.approx(0.5)  # per ms
     np.testing.assert_allclose(y, curve.mean_log_distance[1:10])
-    assert "500.0 ± 4.0" in legend_of(ax)[1]
+    assert "500.0 ± 4.0" in labels_of(ax)[1]
 
 
 def test_divergence_asks_the_program_for_a_result(result_of: Result, ax: Axes) -> None:
@@ -184,7 +178,7 @@ def test_exponent_histogram_counts_members_that_finished(ax: Axes) -> None:
     assert sum(patch.get_height() for patch in ax.patches[:-1]) == 11
     values = result.lyapunov_exponent.values[:-1, 0]
     half = 2.22814 * values.std(ddof=1) / np.sqrt(11)  # Student's t of 10 degrees of freedom
-    assert legend_of(ax) == [f"({values.mean():.0f} ± {half:.0f}) 1/s, 11 members, 1 failed"]
+    assert labels_of(ax) == [f"({values.mean():.0f} ± {half:.0f}) 1/s, 11 members, 1 failed"]
 
 
 def test_exponent_of_one_member_has_its_own_interval(result_of: Result, ax: Axes) -> None:
@@ -221,13 +215,13 @@ def test_spectrum_is_in_decibels_of_g(ax: Axes) -> None:
 
 def test_spectrum_leaves_out_members_that_failed(ax: Axes) -> None:
     plot.spectrum(slideway.example(), "y", reference=1e-6, ax=ax)
-    assert legend_of(ax)[-1] == "root mean square of 11 members"
+    assert labels_of(ax)[-1] == "root mean square of 11 members"
     assert ax.get_ylabel() == "y [dB re 1e-06 m]"
 
 
 def test_work_precision_draws_the_measured_table(ax: Axes) -> None:
     plot.work_precision(root / "bench/results/work_precision.csv", "rattling_energy", ax=ax)
-    assert "slideway auto, avx512" in legend_of(ax)
+    assert "slideway auto, avx512" in labels_of(ax)
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
     assert ax.get_ylabel() == "error, 95th percentile [J]"
     ax.get_legend().remove()  # it lies outside, where this figure has no room
@@ -253,7 +247,7 @@ def test_quantiles_without_statistics_are_those_of_the_members(result_of: Result
 @pytest.mark.parametrize("name", ["correlations", "stored", "tolerance"])
 def test_quantiles_of_several_values_have_a_curve_each(result_of: Result, name: str, ax: Axes) -> None:
     plot.quantiles(result_of(name), "mode_time", ax=ax)
-    assert legend_of(ax)[:4] == ["free", "point", "line", "surface"]
+    assert labels_of(ax)[:4] == ["free", "point", "line", "surface"]
 
 
 def test_sensitivity_shows_sobol_indices_of_a_saltelli_design(result_of: Result, ax: Axes) -> None:
@@ -322,7 +316,7 @@ def planar() -> xr.Dataset:
 
 def test_planar_mechanisms_have_forces_without_lines(ax: Axes) -> None:
     plot.force_histogram(planar(), ax=ax)
-    assert "line, 0.00% of the time" in legend_of(ax)
+    assert "line, 0.00% of the time" in labels_of(ax)
 
 
 def test_planar_mechanisms_have_no_lateral_motion() -> None:
@@ -336,5 +330,5 @@ def test_quantities_with_any_dimension_have_a_curve_for_each_label(ax: Axes) -> 
     result["acceleration_area"] = (("member", "channel"), values, {"units": "m s-1"})
     result = result.assign_coords(channel=["top", "front"])
     plot.quantiles(result, "acceleration_area", ax=ax)
-    assert legend_of(ax) == ["top", "front"]
+    assert labels_of(ax) == ["top", "front"]
     np.testing.assert_allclose(ax.lines[1].get_xdata()[1:], values[:-1, 1])  # the last member failed

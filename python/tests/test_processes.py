@@ -14,14 +14,9 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import root, small
 
-root = Path(__file__).resolve().parents[2]
 example = root / "python" / "examples" / "spread_study.py"
-small: dict[str, Any] = {
-    "schema": 1,
-    "study": {"kind": "ensemble", "members": 6, "duration": "1 ms", "quantities": ["peak_normal_force"],
-              "vary": {"joint.clearance": {"dist": "unif", "low": "50 um", "high": "0.1 mm"}}},
-}  # fmt: skip
 
 
 @pytest.fixture(autouse=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import netCDF4
@@ -10,8 +9,7 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
-
-Result = Callable[[str], xr.Dataset]
+from conftest import Result
 
 
 def test_numbers_are_those_of_the_file(result_of: Result) -> None:

@@ -15,11 +15,9 @@ from typing import Any
 import numpy as np
 import pytest
 import slideway
-import xarray as xr
+from conftest import Result, scenes
 from slideway.__main__ import main
 
-Result = Callable[[str], xr.Dataset]
-scenes = Path(__file__).resolve().parents[2] / "scenes"
 short: dict[str, Any] = {
     "schema": 1,
     "title": 'a "short" run',

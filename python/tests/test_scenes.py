@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import Result
 from slideway.report.facts import of_scene
 from slideway.report.poses import poses
-from slideway.scenes import varied
+from slideway.scenes import tomllib, varied
 from slideway.toml_writer import to_toml
 from slideway.way import may_be_misaligned
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-Result = Callable[[str], xr.Dataset]
 
 
 def test_scene_is_resolved_in_si_units(result_of: Result) -> None:

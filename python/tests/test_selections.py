@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import Result
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 
-Result = Callable[[str], xr.Dataset]
 plot = slideway.plot
 
 PLOTS: list[tuple[str, Callable[..., Any], dict[str, Any]]] = [

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import pickle
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import netCDF4
@@ -13,8 +12,7 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
-
-Result = Callable[[str], xr.Dataset]
+from conftest import Result
 
 
 @pytest.fixture

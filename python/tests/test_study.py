@@ -6,15 +6,14 @@ import doctest
 import math
 import re
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import slideway
+from conftest import root
 from scipy.stats import norm, truncnorm
 
-root = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "scripts"))
 
 from study import ideal, machines, page, runs  # noqa: E402

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +14,8 @@ import pytest
 import scipy.io
 import slideway
 import xarray as xr
-from conftest import scenes
+from conftest import Result, scenes
 
-Result = Callable[[str], xr.Dataset]
 NAMES = ["ensemble", "lyapunov", "poincare", "crossings", "sweep", "columns", "tolerance", "failing"]
 
 

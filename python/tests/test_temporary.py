@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 import slideway
 import xarray as xr
+from conftest import Result
 
-Result = Callable[[str], xr.Dataset]
 scene = {"schema": 1, "study": {"kind": "tolerance", "members": 8, "duration": "1 ms", "quantities": ["peak_tilt"],
                                 "vary": {"initial.y": {"dist": "unif", "low": 0, "high": "0.02 mm"}}}}  # fmt: skip
 

@@ -63,7 +63,6 @@ class Difference:
 def estimate(values: np.ndarray) -> Estimate:
     """Mean of independent members; what is not finite (a member that failed) is left out.
 
-    >>> import numpy as np
     >>> e = estimate(np.array([1.0, 2.0, 3.0]))
     >>> e.mean, round(e.half_width, 2)
     (2.0, 2.48)
@@ -131,7 +130,6 @@ class Share:
 def share(hits: np.ndarray, there: np.ndarray) -> Share:
     """The share of members that hit, of those that are there (Wilson 1927).
 
-    >>> import numpy as np
     >>> s = share(np.array([True] * 8 + [False] * 2), np.ones(10, bool))
     >>> s.mean, round(s.low, 3), round(s.high, 3)
     (0.8, 0.49, 0.943)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -13,12 +12,9 @@ from typing import Any
 import slideway
 import xarray as xr
 from slideway.program import call
+from slideway.scenes import tomllib
 from slideway.toml_writer import to_toml
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 UNITS = {"y": "m", "z": "m", "vy": "m/s", "vz": "m/s", "roll": "rad", "yaw": "rad", "pitch": "rad", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"}
 """Of the states that a start has."""

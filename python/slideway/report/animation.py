@@ -29,8 +29,6 @@ VISIBLE = 0.09  # of the way's smaller side: how large the magnified clearance i
 def magnification(joint: Joint) -> float:
     """By which factor gaps and tilts are drawn larger than bodies: one or two significant digits, at least 1.
 
-    >>> from slideway.report.animation import magnification
-    >>> from slideway.report.poses import Joint
     >>> magnification(Joint(False, 0.04, 0.02, 0.03, 1e-4, 1e-4))
     18.0
     """

@@ -53,7 +53,6 @@ def spatial_modes(touching: Flags) -> NDArray[np.int64]:
     Returns:
         (n, 3).
 
-    >>> from slideway.report.contact import spatial_modes
     >>> flags = np.zeros((1, 16), bool)
     >>> flags[0, [0, 3, 7]] = True  # three apices of the top face: two lines that share one
     >>> spatial_modes(flags).tolist()
@@ -88,7 +87,6 @@ def planar_depths(y: Array, pitch: Array, length: float, height: float, gap: flo
 def planar_modes(touching: Flags) -> NDArray[np.int64]:
     """Surfaces (both corners of a wall), lines (none) and points of each configuration (model.md section 7).
 
-    >>> from slideway.report.contact import planar_modes
     >>> planar_modes(np.array([[True, True, False, False], [True, False, False, True]])).tolist()
     [[1, 0, 0], [0, 0, 2]]
     """
@@ -96,14 +94,3 @@ def planar_modes(touching: Flags) -> NDArray[np.int64]:
     surface = walls.all(2)
     points = walls.sum(2) * ~surface
     return np.stack([surface.sum(1), np.zeros(len(walls), int), points.sum(1)], 1)
-
-
-def mode_classes(triple: NDArray[np.int64]) -> NDArray[np.int64]:
-    """0 free, 1 point, 2 line, 3 surface: the stiffest contact of each configuration, as quantity mode_time counts it.
-
-    >>> from slideway.report.contact import mode_classes
-    >>> mode_classes(np.array([[0, 0, 0], [0, 1, 2], [1, 1, 0]])).tolist()
-    [0, 2, 3]
-    """
-    surfaces, lines, points = (triple[:, k] > 0 for k in range(3))
-    return np.where(surfaces, 3, np.where(lines, 2, np.where(points, 1, 0)))

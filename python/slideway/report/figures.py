@@ -236,7 +236,6 @@ def _convergence(result: xr.Dataset, exponent: int) -> Panel | None:
 def fit_limit(time: np.ndarray, running: np.ndarray) -> tuple[float, float, float]:
     """Least squares of λ + a/t over the second half of a running exponent: λ, a, and the time from which it holds.
 
-    >>> from slideway.report.figures import fit_limit
     >>> t = np.linspace(1, 10, 50)
     >>> [round(part, 6) for part in fit_limit(t, 3 + 2 / t)[:2]]
     [3.0, 2.0]

@@ -23,7 +23,6 @@ class Section:
 def tag(name: str, *children: str, **attributes: object) -> str:
     """An element around children that are HTML already; class_ and for_ lose their underscore, others get hyphens.
 
-    >>> from slideway.report.markup import tag, words
     >>> tag("p", words("<b>"), class_="a", data_x=1)
     '<p class="a" data-x="1">&lt;b&gt;</p>'
     """
@@ -65,7 +64,6 @@ def facts(pairs: Iterable[tuple[str, str]]) -> str:
 def data_block(name: str, data: Any) -> str:
     """Data for the page's own scripts; nothing in it can end the element or start another.
 
-    >>> from slideway.report.markup import data_block
     >>> data_block("d", ["</script>"])
     '<script type="application/json" id="d">["\\\\u003c/script>"]</script>'
     """

@@ -10,7 +10,6 @@ from slideway.units import raised, scaled
 def number(value: float, digits: int = 4) -> str:
     """A number with so many significant digits, powers of ten raised.
 
-    >>> from slideway.report.numbers import number
     >>> number(0.0376152), number(-5.1537e-07), number(4706.79), number(float("nan"))
     ('0.03762', '−5.154·10⁻⁷', '4707', '–')
     """
@@ -30,7 +29,6 @@ def number(value: float, digits: int = 4) -> str:
 def amount(value: float, unit: str, digits: int = 4) -> str:
     """A number with its unit, with a prefix where that reads better.
 
-    >>> from slideway.report.numbers import amount
     >>> amount(0.0376152, "J"), amount(-5.1525e-07, "J", 3)
     ('37.62 mJ', '−515 nJ')
     """
@@ -41,7 +39,6 @@ def amount(value: float, unit: str, digits: int = 4) -> str:
 def percent(share: float, digits: int = 2) -> str:
     """A share in percent, small ones in parts per million.
 
-    >>> from slideway.report.numbers import percent
     >>> percent(0.354), percent(5.5e-06), percent(-2e-3), percent(0.8958, 3)
     ('35 %', '5.5 ppm', '−0.2 %', '89.6 %')
     """
@@ -55,7 +52,6 @@ def percent(share: float, digits: int = 2) -> str:
 def counted(count: int, what: str) -> str:
     """A count with its noun.
 
-    >>> from slideway.report.numbers import counted
     >>> counted(1, "member"), counted(1024, "member")
     ('1 member', '1,024 members')
     """

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
 import slideway
+from slideway.members import counts
 
 from .numbers import counted, number
 
@@ -48,16 +48,9 @@ class Failure:
 
 def endings(result: xr.Dataset) -> list[Ending]:
     """Counts of how members ended, the most frequent first, finished above all."""
-    if "status" in result:
-        counts = Counter(str(word) for word in slideway.statuses(result).values)
-    else:
-        variable = result["status_value"]
-        words = str(variable.attrs["flag_meanings"]).split()
-        by_value = dict(zip(np.atleast_1d(variable.attrs["flag_values"]).tolist(), words, strict=True))
-        every = zip(variable.values.tolist(), result["status_count"].values.tolist(), strict=True)
-        counts = Counter({by_value[value]: int(count) for value, count in every if count > 0})
-    order = sorted(counts, key=lambda word: (word != "finished", -counts[word], word))
-    return [Ending(word, counts[word], MEANINGS.get(word, "")) for word in order]
+    found = counts(result)
+    order = sorted(found, key=lambda word: (word != "finished", -found[word], word))
+    return [Ending(word, found[word], MEANINGS.get(word, "")) for word in order]
 
 
 def failures(result: xr.Dataset) -> list[Failure]:

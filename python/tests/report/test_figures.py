@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import slideway
 import xarray as xr
 from slideway import palette
 from slideway.columns import Column
