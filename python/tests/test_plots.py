@@ -106,7 +106,7 @@ def test_force_histogram_tells_the_time_in_each_class(result_of: Result, ax: Axe
 def test_orbit_lies_in_its_clearance(result_of: Result, ax: Axes) -> None:
     plot.orbit_yz(result_of("single"), ax=ax)
     (gap,) = ax.patches
-    assert gap.get_bbox().bounds == pytest.approx((-100, -100, 200, 200))
+    assert gap.get_path().get_extents().bounds == pytest.approx((-100, -100, 200, 200))
     assert ax.get_aspect() == 1
 
 

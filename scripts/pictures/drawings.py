@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import slideway
-from slideway.figures.marks import Arrow, Axis, Curve, Mark, Panel, Place, Shape, Text
+from slideway.figures.marks import Arrow, Axis, Curve, Mark, Panel, Place, Shape, Text, box
 from slideway.palette import colours, grey, limit_colour
 from slideway.plot.axes import picture
 from slideway.way import APEX_SIGNS, rod_reach
@@ -19,11 +19,6 @@ body = "#cfe1f1"  # of the slider
 way_tone = "#d9d9d9"
 faces = (([0, 1, 2, 3], "#b9cfe4"), ([0, 3, 7, 4], "#e3eef8"), ([0, 1, 5, 4], body))  # that an isometric view shows: X, Y, Z
 _shown_gap = 8.0  # mm, in place of the 0.1 mm that the scene has
-
-
-def box(x: float, y: float, wide: float, high: float) -> np.ndarray:
-    """Corners of a rectangle from its lower left one."""
-    return np.array([x, y]) + np.array([[0, 0], [wide, 0], [wide, high], [0, high]])
 
 
 def arc(centre: Place, radius: float, start: float = 0.0, end: float = 360.0) -> np.ndarray:

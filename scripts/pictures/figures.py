@@ -11,7 +11,7 @@ import pandas as pd
 import slideway
 import xarray as xr
 from slideway.figures.base import by_contact, panel_of
-from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Mark, Note, Panel, Spans, named
+from slideway.figures.marks import Axis, Bars, Cloud, Curve, Level, Mark, Note, Panel, Shape, box, named
 from slideway.palette import class_colours, colours, grey, limit_colour
 from slideway.plot.axes import picture
 from slideway.sections import sections
@@ -31,15 +31,15 @@ def run(root: Path, scene: str, law: str, **overrides: Any) -> xr.Dataset:
                         **{"study__verify": 0} | overrides)
 
 
-def stretches(edges: np.ndarray, there: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Starts and lengths of the stretches of columns in which a flag is set; the columns' edges are one more than the flags.
+def stretches(edges: np.ndarray, there: np.ndarray, low: float, height: float, colour: str) -> list[Shape]:
+    """The stretches of columns in which a flag is set, in a row; the columns' edges are one more than the flags.
 
-    >>> stretches(np.arange(6.0), np.array([True, False, True, True, False]))
-    (array([0., 2.]), array([1., 2.]))
+    >>> [one.points[[0, 2]].tolist() for one in stretches(np.arange(6.0), np.array([True, False, True, True, False]), 0, 1, "red")]
+    [[[0.0, 0.0], [1.0, 1.0]], [[2.0, 0.0], [4.0, 1.0]]]
     """
     change = np.diff(np.concatenate([[0], there, [0]]).astype(int))
     begins, ends = np.flatnonzero(change > 0), np.flatnonzero(change < 0)
-    return edges[begins], edges[ends] - edges[begins]
+    return [Shape(box(edges[b], low, edges[e] - edges[b], height), fill=colour) for b, e in zip(begins, ends, strict=True)]
 
 
 def modes(root: Path) -> str:
@@ -53,8 +53,8 @@ def modes(root: Path) -> str:
         # As fine as 400 columns of the picture; no contact gets lost.
         edges = np.linspace(time[0], time[-1], 401)
         column = np.minimum(np.searchsorted(edges, time, "right") - 1, 399)
-        spans = [Spans(*stretches(edges, np.bincount(column, there, 400) > 0), level - 0.4, 0.8, class_colours[name])
-                 for level, (name, there) in enumerate(classes.items())]  # fmt: skip
+        spans = [shape for level, (name, there) in enumerate(classes.items())
+                 for shape in stretches(edges, np.bincount(column, there, 400) > 0, level - 0.4, 0.8, class_colours[name])]  # fmt: skip
         shares = {name: np.mean(there) for name, there in classes.items()}
         ticks = named([f"{name} {'<1%' if 0 < share < 0.01 else f'{share:.0%}'}" for name, share in shares.items()])
         across = Axis("time" if panels else "", "ms" if panels else "", low=time[0], high=time[-1])

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import slideway
-from slideway.figures.marks import Axis, Curve, Mark, Moving, Panel, Shape, Text
+from slideway.figures.marks import Axis, Curve, Mark, Moving, Panel, Shape, Text, box
 from slideway.palette import grey
 from slideway.plot.axes import picture
 
-from .drawings import arc, box, dark, way_tone
+from .drawings import arc, dark, way_tone
 from .figures import law_colours, law_names, run
 
 _scene = "scenes/slider_crank_0.1mm.toml"

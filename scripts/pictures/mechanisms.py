@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from slideway.figures.marks import Arrow, Place
+from slideway.figures.marks import Arrow, Place, box
 from slideway.palette import colours, grey, limit_colour
 from slideway.way import APEX_SIGNS, rotation
 
-from .drawings import Sheet, arc, body, box, dark, faces, flat, way_tone
+from .drawings import Sheet, arc, body, dark, faces, flat, way_tone
 
 TABLES = {"mechanism": dark, "joint": colours[0], "slider": colours[2], "way": colours[1], "initial": colours[3], "drive": colours[5],
            "way_ends": limit_colour}

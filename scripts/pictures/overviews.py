@@ -14,11 +14,11 @@ import pandas as pd
 import slideway
 from PIL import Image
 from slideway.figures.base import panel_of
-from slideway.figures.marks import Axis, Curve, Level, Panel
+from slideway.figures.marks import Axis, Curve, Level, Panel, box
 from slideway.palette import colours
 from slideway.plot.axes import picture
 
-from .drawings import Sheet, box
+from .drawings import Sheet
 from .figures import run
 
 

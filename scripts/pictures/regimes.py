@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import slideway
 import xarray as xr
-from slideway.figures.marks import Axis, Mark, Panel, Shape, Spans, named
+from slideway.figures.marks import Axis, Mark, Panel, Shape, named
 from slideway.palette import colours
 from slideway.plot.axes import picture
 
@@ -90,7 +90,8 @@ def regimes(root: Path) -> str:
             found = np.array(row(root, name, value))
             for start in range(starts):
                 low = place - 0.46 + 0.23 * start
-                marks += [Spans(*stretches(edges, found[:, start] == regime), low, 0.23, colour) for regime, colour in regimes_of.items()]
+                for regime, colour in regimes_of.items():
+                    marks += stretches(edges, found[:, start] == regime, low, 0.23, colour)
         marks += [Shape(np.full((3, 2), np.nan), regime, colour, "#444444", 0.5) for regime, colour in regimes_of.items()]  # for the legend
         across = Axis("crank speed", "rad/s") if len(panels) == 2 else Axis("")
         across = replace(across, low=edges[0], high=edges[-1])

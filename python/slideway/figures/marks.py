@@ -135,15 +135,6 @@ class Level:
 
 
 @dataclass(frozen=True)
-class Box:
-    """A rectangle about the origin, by half its sides."""
-
-    x: float
-    y: float
-    label: str | None = None
-
-
-@dataclass(frozen=True)
 class Density:
     """How many points lie where."""
 
@@ -157,17 +148,6 @@ class Note:
     """A line of the legend that names nothing drawn."""
 
     label: str
-
-
-@dataclass(frozen=True)
-class Spans:
-    """Stretches of x that are filled from a height on: their starts and lengths (n)."""
-
-    x: Array
-    lengths: Array
-    low: float
-    height: float
-    colour: str
 
 
 @dataclass(frozen=True)
@@ -240,7 +220,7 @@ class Moving:
     stretch: Array | None = None
 
 
-Mark = Union[Curve, Cloud, Band, Bars, Rows, Level, Box, Density, Note, Spans, Shape, Text, Arrow, Moving]
+Mark = Union[Curve, Cloud, Band, Bars, Rows, Level, Density, Note, Shape, Text, Arrow, Moving]
 
 
 @dataclass(frozen=True)
@@ -268,6 +248,11 @@ class Panel:
     right: Panel | None = None
     bare: bool = False
     seconds: float = 0.0
+
+
+def box(x: float, y: float, wide: float, high: float) -> Array:
+    """Corners of a rectangle from its lower left one."""
+    return np.array([[x, y], [x + wide, y], [x + wide, y + high], [x, y + high]])
 
 
 def reach(values: Array, low: Array | None, high: Array | None) -> Array:

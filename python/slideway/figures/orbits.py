@@ -9,14 +9,14 @@ import xarray as xr
 
 from ..arguments import text
 from ..errors import SlidewayError
-from ..palette import colours
+from ..palette import colours, grey
 from ..sampling import coarse_words, too_coarse
 from ..scenes import scene
 from ..sections import sections
 from ..units import lowered, scaled
 from ..way import across, may_be_misaligned, mean_clearance
 from .base import Axes, Members, chosen, drawn, exponent_of, most_lines, variable, words_of
-from .marks import Array, Axis, Box, Cloud, Curve, Density, Level, Mark, Note, Panel
+from .marks import Array, Axis, Cloud, Curve, Density, Level, Mark, Note, Panel, Shape, box
 
 
 @drawn
@@ -45,7 +45,7 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
     factor, unit = scaled("m", np.concatenate([ys.ravel(), zs.ravel()]))
     ys, zs, many = factor * ys, factor * zs, len(members) > most_lines
     gaps = _gaps(result, members) if turned is not None else set()
-    marks: list[Mark] = [Box(factor * width, factor * height, None if many else "clearance") for width, height in gaps]
+    marks: list[Mark] = [Shape(factor * box(-w, -h, 2 * w, 2 * h), None if many else "clearance", edge=grey, dash="--") for w, h in gaps]
     if not many:
         coarse = too_coarse(result, members)
         style: dict[str, Any] = {"dash": "", "marker": ".", "size": 2.5} if coarse else {"width": 0.6}

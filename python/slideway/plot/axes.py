@@ -16,16 +16,14 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import Collection, PathCollection, QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon, Rectangle, StepPatch
+from matplotlib.patches import Polygon, StepPatch
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike
 
 from ..arguments import shown
 from ..errors import SlidewayError
-from ..figures.marks import (
-    Array, Arrow, Band, Bars, Box, Cloud, Curve, Density, Level, Mark, Moving, Note, Panel, Rows, Shape, Spans, Text, reach,
-)  # fmt: skip
+from ..figures.marks import Array, Arrow, Band, Bars, Cloud, Curve, Density, Level, Mark, Moving, Note, Panel, Rows, Shape, Text, reach
 from ..palette import grey
 
 _corners: tuple[Literal["upper right", "upper left", "lower right", "lower left"], ...] = ("upper right", "upper left", "lower right", "lower left")
@@ -133,7 +131,8 @@ def draw(panel: Panel, ax: Axes | None) -> Axes:
         ax.margins(panel.margin)
     if panel.equal:
         ax.set_aspect("equal", adjustable="box")
-        ax.autoscale_view()
+    if any(isinstance(mark, Shape) for mark in panel.marks):
+        ax.autoscale_view()  # which patches do not ask for
     if panel.right is not None:
         _right(ax, panel.right)
     if panel.title:
@@ -182,17 +181,14 @@ def _mark(ax: Axes, mark: Mark) -> None:
                 along(mark.value - mark.half, mark.value + mark.half, color=mark.colour, alpha=0.25, lw=0, label=None if mark.width else label)
             if mark.width:
                 across(mark.value, color=mark.colour, lw=mark.width, ls=mark.dash, label=label, zorder=1 if mark.dash == ":" else None)
-        case Box():
-            ax.add_patch(Rectangle((-mark.x, -mark.y), 2 * mark.x, 2 * mark.y, fill=False, ec=grey, ls="--", label=_once(ax, mark.label)))
         case Density():
             image = ax.hist2d(mark.x, mark.y, bins=120, cmap="viridis_r", norm=LogNorm())[3]
             ax.figure.colorbar(image, ax=ax, label=mark.label)
         case Note():
             ax.plot([], [], " ", label=mark.label)
-        case Spans():
-            ax.broken_barh(list(zip(mark.x, mark.lengths, strict=True)), (mark.low, mark.height), color=mark.colour, lw=0)
         case Shape():
-            ax.add_patch(Polygon(mark.points, fc=mark.fill, ec=mark.edge, lw=mark.width, ls=mark.dash, alpha=mark.opacity, label=mark.label, **order))
+            ax.add_patch(Polygon(mark.points, fill=mark.fill != "none", fc=mark.fill, ec=mark.edge, lw=mark.width, ls=mark.dash, alpha=mark.opacity,
+                                 label=_once(ax, mark.label), **order))  # fmt: skip
         case Text():
             ax.text(mark.x, mark.y, mark.words, color=mark.colour, fontsize=mark.size, ha=mark.across, va=mark.up, rotation=mark.turn, linespacing=1.15,
                     style="italic" if mark.italic else "normal", weight="bold" if mark.bold else "normal", **order,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from slideway.escapes import escaped
-from slideway.figures.marks import Axis, Band, Bars, Box, Cloud, Curve, Level, Mark, Note, Panel, Rows, reach
+from slideway.figures.marks import Axis, Band, Bars, Cloud, Curve, Level, Mark, Note, Panel, Rows, Shape, reach
 from slideway.palette import names_of_colours
 
 MOST_POINTS = 5000  # of a trace
@@ -99,7 +99,7 @@ def plot(panels: Sequence[Panel]) -> dict[str, Any]:
         of_row = {} if row == 1 else {"yaxis": f"y{row}"}
         edges = [mark.value for mark in panel.marks if isinstance(mark, Level) and mark.of == "x"]
         for mark in panel.marks:
-            if isinstance(mark, (Level, Box)):
+            if isinstance(mark, (Level, Shape)):
                 shapes, notes = _shapes(mark, row)
                 layout["shapes"] += shapes
                 layout["annotations"] += notes
@@ -208,11 +208,11 @@ def _interval(values: NDArray[Any], low: NDArray[Any], high: NDArray[Any], tint:
     return {"type": "data", "symmetric": False, "array": packed(up), "arrayminus": packed(down), "color": tint, "thickness": 1.2, "width": 0}
 
 
-def _shapes(mark: Level | Box, row: int) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Lines across the panels with their names on top, and rectangles."""
-    if isinstance(mark, Box):
-        line = {"color": "@muted", "dash": "dot", "width": 1}
-        return [{"type": "rect", "x0": -mark.x, "x1": mark.x, "y0": -mark.y, "y1": mark.y, "line": line}], []
+def _shapes(mark: Level | Shape, row: int) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Lines across the panels with their names on top, and outlines."""
+    if isinstance(mark, Shape):
+        ring = "L".join(f"{x:.6g},{y:.6g}" for x, y in mark.points)
+        return [{"type": "path", "path": f"M{ring}Z", "line": {"color": colour(mark.edge), "dash": "dot", "width": mark.width}}], []
     line = {"color": colour(mark.colour), "dash": _dashes[mark.dash], "width": mark.width}
     if mark.of == "y":
         across = {"xref": "paper", "x0": 0, "x1": 1, "yref": f"y{row}" if row > 1 else "y"}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import slideway
-from pictures import impacts, mechanisms, regimes
+from pictures import figures, impacts, mechanisms, regimes
 
 ROOT = Path(__file__).resolve().parents[3]
 PICTURES = ROOT / "docs" / "pictures"
@@ -14,7 +14,7 @@ GEOMETRY = ("mechanism.", "joint.", "slider.", "way.", "way_ends.", "initial.")
 
 
 def test_examples_in_docstrings_hold() -> None:
-    for module in (impacts, regimes):
+    for module in (figures, impacts, regimes):
         assert doctest.testmod(module).failed == 0, module.__name__
 
 
