@@ -41,7 +41,7 @@ Range usual_range(Setting const& key) { return key.physics != nullptr ? usual_ra
 bool is_of(Setting const& key, std::size_t mechanism) {
     MechanismInfo const& of = mechanisms()[mechanism];
     if (key.name == "contact.law") return of.spatial || may_be_rigid(static_cast<Mechanism>(mechanism));
-    return (!key.of_faces || of.spatial) && (key.table() != "drive" || of.drive != DriveKind::none);
+    return (key.of == nullptr || of.spatial) && (key.table() != "drive" || of.drive != DriveKind::none);
 }
 
 /// Whether a number of the physics counts with a law, where it counts at all.

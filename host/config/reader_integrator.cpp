@@ -150,8 +150,10 @@ void read_integrator(Reading& reading) {
     max_step = std::min(max_step, of_loads);
     double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;
     if (!reading.given("integrator.max_step")) settings.max_step = std::min(max_step, reversal);
-    // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
-    double const stiff_step = std::min({10 * settings.max_step, reverses ? reversal : 10 * settings.max_step, of_loads});
+    // The stiff method runs in lasting contact alone, where nothing is to be leapt over; what is rigid slides at the drive's pace then.
+    bool const at_pace = scene.parts.rigid && std::isfinite(period) && !reading.given("integrator.max_step");
+    double const longest_stiff = at_pace ? period / 50 : 10 * settings.max_step;
+    double const stiff_step = std::min({longest_stiff, reverses ? reversal : longest_stiff, of_loads});
     if (!reading.given("integrator.stiff_max_step")) settings.stiff_max_step = stiff_step;
     if (Node const* const table = reading.given("integrator")) warn_of_idle_keys(*table, reading);
 }

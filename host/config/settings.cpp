@@ -14,6 +14,9 @@
 namespace slideway {
 namespace {
 
+/// Whether lasting contact may need the stiff method: vibrating faces, or friction against a slow slip in space.
+bool may_be_stiff(Parts const& parts) { return info(parts.mechanism).spatial; }
+
 using Type = Setting::Type;
 using namespace study_sets;
 
@@ -82,17 +85,17 @@ Settings settings() {
         {.name = "integrator.max_step", .type = Type::number, .unit = "s", .meaning = "largest step of the explicit methods",
          .preset = "1 ms, or a 2000th (verner65: a 200th) of the drive's period, or a 20th of a reversal; with rigid contacts 50 ms, or a 50th of the period",
          .what = "largest step", .range = time_of_steps, .methods = method_sets::controlled, .value = of_integrator<&IntegratorSettings::max_step>},
-        {.name = "integrator.stiff_max_step", .type = Type::number, .unit = "s", .meaning = "largest step of the stiff method", .preset = "10 max_step",
-         .what = "largest step", .range = time_of_steps, .methods = method_sets::stiff, .of_faces = true,
+        {.name = "integrator.stiff_max_step", .type = Type::number, .unit = "s", .meaning = "largest step of the stiff method", .preset = "10 max_step; with rigid contacts a 50th of the period",
+         .what = "largest step", .range = time_of_steps, .methods = method_sets::stiff, .of = may_be_stiff,
          .value = of_integrator<&IntegratorSettings::stiff_max_step>},
         {.name = "integrator.stiff_tolerance", .type = Type::number, .unit = "1",
          .meaning = "tolerance of vibrations that the stiff method damps, where rtol is smaller", .preset = "", .what = "least tolerance of ringing",
-         .range = relative_tolerance, .methods = method_sets::stiff, .of_faces = true, .value = of_integrator<&IntegratorSettings::stiff_tolerance>},
+         .range = relative_tolerance, .methods = method_sets::stiff, .of = may_be_stiff, .value = of_integrator<&IntegratorSettings::stiff_tolerance>},
         {.name = "integrator.step", .type = Type::number, .unit = "s", .meaning = "the fixed step of rk4 and moreau_jean", .preset = "-",
          .what = "fixed step", .range = time_of_steps, .methods = method_sets::fixed, .value = of_integrator<&IntegratorSettings::fixed_step>},
         {.name = "integrator.locate_modes", .type = Type::truth, .unit = "", .meaning = "end steps where the contact mode switches; for laws that switch",
          .preset = "true under a law that switches, without restitution; else false",
-         .methods = method_sets::explicit_pairs, .of_faces = true, .value = of_integrator<&IntegratorSettings::locate_modes>},
+         .methods = method_sets::explicit_pairs, .of = has_faces, .value = of_integrator<&IntegratorSettings::locate_modes>},
         {.name = "integrator.max_steps", .type = Type::count, .unit = "1",
          .meaning = "largest number of steps of a member, rejected ones included; a member that needs more ends as failed",
          .preset = "1e7, and as many for each second", .what = "number of steps", .least = 1, .most = most_steps,
@@ -222,7 +225,7 @@ Setting const& setting(std::string_view name, Settings rows) {
 }
 
 bool has_effect(Setting const& setting, Method method, Parts const& parts) {
-    return (setting.methods & set_of(method)) != 0 && (!setting.of_faces || has_faces(parts));
+    return (setting.methods & set_of(method)) != 0 && (setting.of == nullptr || setting.of(parts));
 }
 
 std::string value_text(Setting const&, double value) { return toml_number(value); }

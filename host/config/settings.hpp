@@ -62,7 +62,7 @@ struct Setting {
     std::span<std::string_view const> (*known)() = nullptr;                    // of one that modules add to, in the place of choices
     std::array<std::string_view, 4> rivals = {};                               // say the same in other words: given later, one replaces them
     MethodSet methods = method_sets::all;                                      // that read it
-    bool of_faces = false;                                                     // a mechanism whose corners are points does not
+    bool (*of)(Parts const&) = nullptr;                                        // parts that it is for, if not all: never those whose corners are points
     Access value = {};                                                         // where a scene has it
     bool (*is_said)(Scene const& scene) = nullptr;                             // whether the resolved scene has it, where it counts; none: always
     Key const* physics = nullptr;                                              // the number that it is, of one of the physics

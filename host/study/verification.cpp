@@ -40,7 +40,7 @@ Method other_method(Scene const& scene) {
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/evidence/integrators.md).
 double cost_of(Parts const& parts, Method study, Method check) {
-    // Without faces there is no stiff method, and `auto` is dopri5.
+    // Without faces `auto` is dopri5, but for slow sliding.
     bool const is_dopri5 = study == Method::automatic && !has_faces(parts);
     bool const high_order = is_dopri5 || study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
     if (study == check) return high_order ? 2.5 : 4;

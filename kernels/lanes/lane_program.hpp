@@ -156,7 +156,7 @@ private:
         if (kind == Kind::fresh) {
             start();
         } else if (kind == Kind::stiff) {
-            work<std::conditional_t<Model::has_linearisation, StiffStep<Model, Real>, ExplicitStep<Model, Real>>>();
+            work<std::conditional_t<HasStiffSteps<Model>, StiffStep<Model, Real>, ExplicitStep<Model, Real>>>();
         } else if (is_time_stepping()) {
             work<std::conditional_t<HasTimeStepping<Model>, MoreauJeanStep<Model, Real>, ExplicitStep<Model, Real>>>();
         } else if (settings.method == Method::verner65) {
@@ -220,11 +220,11 @@ private:
         pattern_ = Real(0.0);
         if constexpr (Regroups<Model>) {
             auto const& s = pack_.state;
-            bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
+            bool const switching = HasStiffSteps<Model> && block_.settings.method == Method::automatic &&
                                    !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
             pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters, s.contacts.memory);
-            if constexpr (Model::has_linearisation) {
+            if constexpr (HasStiffSteps<Model>) {
                 if (switching && kind == Kind::explicit_pair) {
                     MethodChoice<Model, Real>::look_for_stiffness(pack_, pack_.busy & ((pattern_ > Real(0.5)) | mask_of<Real>(pack_.model.has_film())));
                 }

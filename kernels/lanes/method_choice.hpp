@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/stiffness.hpp"
 #include "kernels/real.hpp"
@@ -10,6 +12,64 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Model, class Real> struct MethodChoice {
     /// Between stints of the explicit pair: who is better off with the stiff method.  @param touching lanes in contact
     SLIDEWAY_HD static void look_for_stiffness(Pack<Model, Real>& pack, Mask<Real> touching) {
+        auto& c = pack.state.course;
+        auto const look = look_at(pack, touching);
+        Real const looks = max(c.stiffness + look.count, Real(0.0));
+        auto const change = pack.busy & look.may_change & (looks >= Real(Limits::enough));
+        c.stiff = select(change, Real(1.0), c.stiff);
+        c.stiffness = select(change, Real(0.0), looks);
+    }
+
+    /// Lanes whose stiff step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
+    /// sign: `auto` leaves impacts to the explicit pair.  What counts is how fast the apex approached its face: a slider that glides along
+    /// one, with a corner that rattles on it at next to no speed, has no impacts.
+    SLIDEWAY_HD static Mask<Real> find_impacts(Pack<Model, Real> const& pack, Attempt<Model, Real> const& to, Mask<Real> accepted)
+        requires(!IsRigid<Model>)
+    {
+        auto const& s = pack.state;
+        // At either end: a slider lifted from rest meets the other face within one long step.
+        Real const squared_speed = max(Model::squared_speed(s.course.y, s.constants.scale),
+                                       Model::squared_speed(to.end, s.constants.scale));
+        auto const moves = squared_speed > Real(Stiffness::creep_below * Stiffness::creep_below);
+        if (none(accepted & moves)) return mask_of<Real>(false);
+        auto const& p = s.constants.parameters;
+        Real const speed = pack.model.approach_speed(s.course.t, s.course.y, to.step, to.end, p);
+        return accepted & moves & (speed > Real(Stiffness::impact_above));
+    }
+    /// Rigid contacts end their steps at impacts.
+    SLIDEWAY_HD static Mask<Real> find_impacts(Pack<Model, Real> const&, Attempt<Model, Real> const&, Mask<Real>)
+        requires IsRigid<Model>
+    {
+        return mask_of<Real>(false);
+    }
+
+    /// Lanes that leave the stiff method: where contact is lost or an impact begins, or steps stay far below what that method is for.
+    /// @param stepper that made the step  @param max_step of the explicit pair [s]
+    template <class Stepper>
+    SLIDEWAY_HD static Mask<Real> leave_stiffness(Pack<Model, Real>& pack, Stepper const& stepper, Real step,
+                                                  Mask<Real> accepted, Mask<Real> impact, double max_step) {
+        auto& c = pack.state.course;
+        Real const rate = sqrt(max(stepper.rate_squared(), Real(0.0)));
+        auto const calm = step * rate < Real(Limits::calm_below);
+        c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
+        auto const free = stepper.touching() < Real(0.5);
+        Mask<Real> const leaving = pack.busy & (free | impact | (c.stiffness >= Real(Limits::calm_steps)));
+        if (none(leaving)) return leaving;
+        c.stiffness = select(leaving, Real(0.0), c.stiffness);
+        c.stiff = select(leaving, Real(0.0), c.stiff);
+        Real const explicit_step = min(Real(1.0) / max(rate, Real(1e-9)), Real(max_step));
+        c.h = select(leaving, min(c.h, explicit_step), c.h);
+        return leaving;
+    }
+
+private:
+    using Limits = std::conditional_t<IsRigid<Model>, SlipStiffness, Stiffness>;
+    /// What a look adds to those that found a member stiff, and who may change over.
+    struct Look { Real count; Mask<Real> may_change; };
+
+    SLIDEWAY_HD static Look look_at(Pack<Model, Real>& pack, Mask<Real> touching)
+        requires(!IsRigid<Model>)
+    {
         auto& c = pack.state.course;
         auto const& s = pack.state;
         Real rate_squared(0.0);
@@ -29,46 +89,15 @@ template <class Model, class Real> struct MethodChoice {
         auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
         auto const lasting =
             touching & (squared_step * c.rate_squared > Real(Stiffness::lasting_above * Stiffness::lasting_above));
-        Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
-        Real const looks = max(c.stiffness + sign, Real(0.0));
-        auto const change = pack.busy & creeping & (looks >= Real(Stiffness::enough));
-        c.stiff = select(change, Real(1.0), c.stiff);
-        c.stiffness = select(change, Real(0.0), looks);
+        return {select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0))), creeping};
     }
-
-    /// Lanes whose stiff step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
-    /// sign: `auto` leaves impacts to the explicit pair.  What counts is how fast the apex approached its face: a slider that glides along
-    /// one, with a corner that rattles on it at next to no speed, has no impacts.
-    SLIDEWAY_HD static Mask<Real> find_impacts(Pack<Model, Real> const& pack, Attempt<Model, Real> const& to,
-                                               Mask<Real> accepted) {
+    SLIDEWAY_HD static Look look_at(Pack<Model, Real>& pack, Mask<Real> touching)
+        requires IsRigid<Model>
+    {
         auto const& s = pack.state;
-        // At either end: a slider lifted from rest meets the other face within one long step.
-        Real const squared_speed = max(Model::squared_speed(s.course.y, s.constants.scale),
-                                       Model::squared_speed(to.end, s.constants.scale));
-        auto const moves = squared_speed > Real(Stiffness::creep_below * Stiffness::creep_below);
-        if (none(accepted & moves)) return mask_of<Real>(false);
-        auto const& p = s.constants.parameters;
-        Real const speed = pack.model.approach_speed(s.course.t, s.course.y, to.step, to.end, p);
-        return accepted & moves & (speed > Real(Stiffness::impact_above));
-    }
-
-    /// Lanes that leave the stiff method: where contact is lost or an impact begins, or steps stay far below what that method is for.
-    /// @param stepper that made the step  @param max_step of the explicit pair [s]
-    template <class Stepper>
-    SLIDEWAY_HD static Mask<Real> leave_stiffness(Pack<Model, Real>& pack, Stepper const& stepper, Real step,
-                                                  Mask<Real> accepted, Mask<Real> impact, double max_step) {
-        auto& c = pack.state.course;
-        Real const rate = sqrt(max(stepper.rate_squared(), Real(0.0)));
-        auto const calm = step * rate < Real(Stiffness::calm_below);
-        c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
-        auto const free = stepper.touching() < Real(0.5);
-        Mask<Real> const leaving = pack.busy & (free | impact | (c.stiffness >= Real(Stiffness::calm_steps)));
-        if (none(leaving)) return leaving;
-        c.stiffness = select(leaving, Real(0.0), c.stiffness);
-        c.stiff = select(leaving, Real(0.0), c.stiff);
-        Real const explicit_step = min(Real(1.0) / max(rate, Real(1e-9)), Real(max_step));
-        c.h = select(leaving, min(c.h, explicit_step), c.h);
-        return leaving;
+        Real rate(0.0);
+        if (any(touching)) rate = select(touching, pack.model.slip_rate(s.course.t, s.course.y, s.constants.parameters, s.contacts.memory), rate);
+        return {select(s.course.h * rate > Real(SlipStiffness::held_up_above), Real(1.0), Real(-1.0)), touching};
     }
 };
 

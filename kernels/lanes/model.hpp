@@ -12,6 +12,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 struct ModelDefaults {
     /// Whether the model brings the stepper that `auto` takes.
     static constexpr bool has_own_stepper = false;
+    /// How many derivatives its linearisation is made of.
+    static constexpr int evaluations_of_linearisation = 0;
     template <class Model, class Real, class Work> SLIDEWAY_HD static void with_stepper(double /*rtol*/, Work const&) {}
     SLIDEWAY_HD static void set_tolerance(double /*rtol*/) {}
     /// Reports, from here on, are of stages inside a step, which tell what is integrated and nothing else; and of that, perhaps, the audit's powers alone.
@@ -76,6 +78,9 @@ template <class Model> concept HasTimeStepping = IsRigid<Model> && !Model::has_s
 /// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
 template <class Model> concept Regroups = Model::has_patterns && !(IsRigid<Model> && Model::has_shadows);
 
+/// Whether members may change to the stiff method.  Rigid ones with shadows do not.
+template <class Model> concept HasStiffSteps = Model::has_linearisation && !(IsRigid<Model> && Model::has_shadows);
+
 /// What lanes ask of a model.  The assertions name what is missing of what all models have, and for each part that a model may have the rest of it.
 /// All of it is static but for the equations, which may be members: a model can look them up (kernels/models/mechanism_table.hpp).  Its parameters,
 /// memory and watch hold Reals only.
@@ -128,11 +133,11 @@ template <class Model, class Real> class ModelParts {
                   "(kernels/rigid), with shadows also of Tangents (kernels/lanes/saltation.hpp)");
     static_assert(!Model::has_linearisation || requires { typename Model::template Linearisation<Real>; },
                   "has_linearisation: Linearisation<Real> and linearise(...) serve the stiff method");
-    static_assert(!(Model::has_patterns && Model::has_linearisation) || requires(Parameters<Real> const& p, Real const* y) {
+    static_assert(!(Model::has_patterns && Model::has_linearisation) || IsRigid<Model> || requires(Parameters<Real> const& p, Real const* y) {
         Model::energy_scale(p);
         Model::squared_speed(y, y);
     }, "has_patterns with a linearisation: energy_scale(parameters), squared_speed(state, scale) and approach_speed(...) say what is a creep and what an impact; "
-       "contact_pattern(...) which lanes have like work to do");
+       "contact_pattern(...) which lanes have like work to do; of a rigid one slip_rate(...) says how stiff its slips are");
 
     // Of what ends a step early.
     static_assert(!HasEvents<Model> || requires { typename Model::template Search<Model, Real>; },

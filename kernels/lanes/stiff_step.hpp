@@ -14,8 +14,8 @@ public:
     static constexpr bool stiff = true;
     static constexpr int jacobians = 1;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return 3; }
-    /// Per attempt, the end's and that of ∂f/∂t included.
-    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Ros34pw2Tableau::stages + 1; }
+    /// Per attempt, the end's, that of ∂f/∂t and those of a linearisation by differences included.
+    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Ros34pw2Tableau::stages + 1 + Model::evaluations_of_linearisation; }
     /// Largest sum of the relative residuals of the linear solves; without pivoting a bad matrix shows here.
     static constexpr double largest_residual = 1e-8;
     /// Part of a step over which a difference of f stands for ∂f/∂t.

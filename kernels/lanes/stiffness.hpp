@@ -28,4 +28,14 @@ struct Stiffness {
     static constexpr double impact_above = 0.3;
 };
 
+/// The same of rigid contacts, where friction takes back a slip v to the side at the rate Ω = 4 μ Σ λ/(m |v|), without ringing and without impacts in a step.
+struct SlipStiffness {
+    // The pair is stable up to 3.3 of the rates, of which this is the largest and another: a look counts 1, every other takes 1 off.
+    static constexpr double held_up_above = 3.5;
+    static constexpr double enough = 6.0;
+    // Below that the pair could do the same steps.
+    static constexpr double calm_below = 2.5;
+    static constexpr double calm_steps = 6.0;
+};
+
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -51,6 +51,8 @@ struct SliderBase {
     SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& inputs) { return slider_parameters(inputs); }
     /// Speed [m/s] of the motion along the way, r ω.
     SLIDEWAY_FN static double speed_along(SliderParameters<double> const& p) { return p.crank_length * p.rate_scale; }
+    /// Rate [1/s] of the motion along the way.
+    SLIDEWAY_FN static double pace(SliderParameters<double> const& p) { return p.rate_scale; }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         double const start[size] = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
@@ -101,6 +103,7 @@ struct FreeSliderBase : SliderBase {
         double const fall = (abs(p.gravity_x) + abs(p.gravity_y) + abs(p.gravity_z)) * 2 * p.joint.geometry.half_length;
         return max(::sqrt(fall), touch_speed(p));
     }
+    SLIDEWAY_FN static double pace(SliderParameters<double> const& p) { return min(speed_along(p) / (2 * p.joint.geometry.half_length), p.rate_scale); }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         SliderBase::initial_state(in, s);

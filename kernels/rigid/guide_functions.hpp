@@ -61,6 +61,7 @@ template <class Guide> struct RigidGuide {
         in.restitution = 1;
         static_cast<SliderParameters<double>&>(p) = Guide::Base::parameters(in);
         p.slip_scale = Guide::Base::speed_along(p);
+        p.pace = Guide::Base::pace(p);
         return p;
     }
 

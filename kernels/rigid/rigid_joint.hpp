@@ -56,8 +56,8 @@ public:
     }
 
 private:
-    /// β of (M13.10) [1/s]: what drifts is back within a part of the drive's period.
-    SLIDEWAY_FN Real drift_rate() const { return Real(10.0) * p_.rate_scale; }
+    /// β of (M13.10) [1/s]: what drifts is back within a part of the drive's period, or of the time that a free slider falls its length in.
+    SLIDEWAY_FN Real drift_rate() const { return Real(10.0) * p_.pace; }
 
     /// Of all pairs [m].
     struct Depths {

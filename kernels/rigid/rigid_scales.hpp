@@ -41,6 +41,7 @@ template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& 
 template <class Real> struct RigidSliderParameters : SliderParameters<Real> {
     Real restitution;
     Real slip_scale;  // as of the planar slider, of what guides this one
+    Real pace;        // and its rate [1/s]
 };
 
 /// A pair of the joint that slips slower than this comes to rest [slip units], and one that sticks slips from `slip_again` on.

@@ -7,6 +7,7 @@
 #include "kernels/lanes/model.hpp"
 #include "kernels/math/tangent.hpp"
 #include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/slider_linearisation.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/guide_functions.hpp"
@@ -32,7 +33,9 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     template <class Real> using Memory = RigidJointMemory<Real>;
     template <class Real> using Watch = JointWatch<Real>;
     template <class Real> using Observer = RigidObserver<Real, RigidSliderReport, true>;
-    static constexpr bool sees_contacts = true, has_patterns = true;
+    template <class Real> using Linearisation = SliderLinearisation<Real>;
+    static constexpr bool sees_contacts = true, has_patterns = true, has_linearisation = true;
+    static constexpr int evaluations_of_linearisation = 11;
     static constexpr int size = Base::room;
 
     RigidConditions block;
@@ -96,6 +99,55 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
                                RigidJointContact<Real>& contact) const {
         auto const at = place(t, s, p);
         block.joint(at, p).see(memory, contact);
+    }
+
+    /// Rate [1/s] at which friction takes back what slips to the side, Ω = 4 μ Σ λ/(m |v|) over the pairs that slip: a corner of a block turns, too, and
+    /// feels a quarter of the mass.
+    template <class Real>
+    SLIDEWAY_NOINLINE Real slip_rate(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory) const {
+        Real const zero(0.0);
+        Real sum = zero;
+        if (!block.friction) return sum;
+        each_slip(t, s, p, memory, [&](int i, Mask<Real> slips, Real speed) {
+            sum = sum + select(slips, number_of(memory.loads.normal, i) / select(slips, speed, Real(1.0)), zero);
+        });
+        return Real(4.0) * sum * (p.joint.friction.kinetic_coefficient / p.slider_mass);
+    }
+
+    /// How the accelerations follow places and velocities, by differences: of velocities far smaller than the slowest slip, whose direction friction has.
+    /// Angles stay so small that those of attitude pass for turns about the slider's axes.
+    template <class Real>
+    SLIDEWAY_NOINLINE void linearise(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
+                                     SliderLinearisation<Real>& out) const {
+        constexpr int places[5] = {0, 1, 4, 5, 6}, velocities[5] = {2, 3, 7, 8, 9};
+        Real const zero(0.0), one(1.0), per_length = one / p.joint.geometry.half_length;
+        Real slowest = p.slip_scale;
+        out.touching = zero;
+        each_slip(t, s, p, memory, [&](int, Mask<Real> slips, Real speed) {
+            slowest = min(slowest, select(slips, speed, slowest));
+            out.touching = out.touching + count<Real>(slips);
+        });
+        Real at[size], rates[size], changed[size];
+        for (int i = 0; i < states(); ++i) at[i] = s[i];
+        derivative<false, Real>(t, at, p, memory, rates, nullptr);
+        auto const differ = [&](int of, Real by, int column, Real (&slopes)[5][5]) {
+            at[of] = s[of] + by;
+            derivative<false, Real>(t, at, p, memory, changed, nullptr);
+            Real const inverse = one / (at[of] - s[of]);
+            for (int i = 0; i < 5; ++i) slopes[i][column] = (changed[velocities[i]] - rates[velocities[i]]) * inverse;
+            at[of] = s[of];
+        };
+        Real const shift = Real(1e-6) * min(p.length_scale_y, p.length_scale_z), speed = Real(1e-5) * slowest;
+        for (int j = 0; j < 5; ++j) {
+            Real const arm = j < 2 ? one : per_length;
+            differ(places[j], shift * arm, j, out.joint.by_place);
+            differ(velocities[j], speed * arm, j, out.joint.by_rate);
+        }
+        out.mass_y = out.mass_z = one, out.mass_yz = zero;
+        out.inertia = {one, one, one};
+        out.has_twelve = states() > state_size;
+        auto const angles = attitude(s[4], s[5], s[6]);
+        out.roll = angles.roll, out.yaw = angles.yaw;
     }
 
     /// What follows from where a step has ended: impacts, and pairs that begin or cease to last.
@@ -163,6 +215,18 @@ template <class Number, class Base_> struct RigidSlider : RigidLanes<Base_> {
     }
 
 private:
+    /// Has a function see the pairs that last: lanes where one slips, and how fast [m/s].
+    template <class Real, class See>
+    SLIDEWAY_HD void each_slip(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory, See const& see_slip) const {
+        RigidJointContact<Real> contact;
+        see(t, s, p, memory, contact);
+        Real const unit = Real(block.slip_units) * p.slip_scale;
+        for (int i = 0; i < pair_count; ++i) {
+            Real const first = number_of(contact.slip[0], i), second = number_of(contact.slip[1], i);
+            see_slip(i, number_of(contact.slides, i) > Real(0.5), unit * sqrt(fma(first, first, second * second)));
+        }
+    }
+
     template <class Real> constexpr GuideFunctions<Real> const& guide_of() const {
         if constexpr (is_tangent<Real>) return *sloped_guide;
         else return *guide;
