@@ -19,8 +19,8 @@
 #include "host/config/units.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/run_identity.hpp"
+#include "host/study/continued_sweep.hpp"
 #include "host/study/result_summary.hpp"
-#include "host/store/run_identity.hpp"
 #include "host/study/series_file.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/members/start.hpp"
@@ -42,10 +42,7 @@ struct Column {
 
 std::vector<std::string_view> state_names(Mechanism mechanism) {
     std::vector<std::string_view> names;
-    names.reserve(static_cast<std::size_t>(info(mechanism).states));
-    for (int i = 0; i < info(mechanism).states; ++i) {
-        names.emplace_back(state_info(info(mechanism), i).name);
-    }
+    for (int i = 0; i < info(mechanism).states; ++i) names.emplace_back(state_info(info(mechanism), i).name);
     return names;
 }
 
@@ -77,10 +74,9 @@ Column input_column(std::string_view name, Scene const& scene, CsvReader const& 
         column.kind = Column::Kind::key;
         if (!counts_for(*column.key, mechanism)) fail_meaningless(name, mechanism, lines);
         if (starts_a_state(name, mechanism)) {
-            lines.fail(info(mechanism).spatial
-                           ? fmt::format("column {}: the state to probe stands in the column {}", name, name.substr(8))
-                           : fmt::format("column {}: the state to probe stands in the columns {}", name,
-                                         fmt::join(state_names(mechanism), ", ")));
+            bool const own = info(mechanism).spatial;
+            std::string const place = own ? std::string(name.substr(8)) : fmt::format("{}", fmt::join(state_names(mechanism), ", "));
+            lines.fail(fmt::format("column {}: the state to probe stands in the column{} {}", name, own ? "" : "s", place));
         }
     } else {
         std::vector<std::string_view> names = numeric_key_names(scene);
@@ -125,10 +121,8 @@ std::vector<Column> read_header(Scene const& scene, CsvReader const& lines) {
     }
     auto const need = [&](std::string_view name) {
         auto const has_name = [&](Column const& column) { return column.name == name; };
-        if (std::none_of(columns.begin(), columns.end(), has_name)) {
-            lines.fail(fmt::format("column {}: is missing; the table needs t, {}", name,
-                                   fmt::join(state_names(mechanism), ", ")));
-        }
+        if (std::ranges::none_of(columns, has_name))
+            lines.fail(fmt::format("column {}: is missing; the table needs t, {}", name, fmt::join(state_names(mechanism), ", ")));
     };
     need("t");
     for (std::string_view const name : state_names(mechanism)) need(name);
@@ -214,10 +208,8 @@ void add_row(StateTable& table, std::vector<Column>& columns, Scene const& scene
                 break;
             case Column::Kind::key: {
                 double const value = number(i, column, lines);
-                if (!counts_for(*column.key, parts)) {
-                    lines.fail(fmt::format("column {}: contact.law \"{}\" does not know it; remove it", column.name,
-                                           info(parts.law).name));
-                }
+                if (!counts_for(*column.key, parts))
+                    lines.fail(fmt::format("column {}: contact.law \"{}\" does not know it; remove it", column.name, info(parts.law).name));
                 column.key->set(inputs, value);
                 if (auto const words = unusual(*column.key, value); words && !std::exchange(column.is_told, true))
                     table.warnings.push_back(fmt::format("{}: {} {}", lines.where(), column.name, *words));
@@ -272,9 +264,7 @@ StateTable read_state_table(std::istream& in, std::string const& name, Scene con
     std::vector<Column> columns = read_header(scene, lines);
     StateTable table = empty_table(scene);
     for (Column const& column : columns) {
-        if (column.kind == Column::Kind::law || column.kind == Column::Kind::key) {
-            table.parameter_names.push_back(column.name);
-        }
+        if (column.kind == Column::Kind::law || column.kind == Column::Kind::key) table.parameter_names.push_back(column.name);
     }
     while (lines.next()) add_row(table, columns, scene, lines);
     if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
@@ -410,6 +400,12 @@ void take_member(Scene& scene, ResultView const& results, std::uint64_t member) 
     if (scene.study == StudyKind::sweep) keys.push_back(scene.chaos.parameter);
     for (Variation const& variation : scene.variations) keys.push_back(variation.key);
     for (Key const* const key : keys) key->set(scene.inputs, results.rows(variable_name(key->name), place, 1)[0]);
+    if (!is_continued(scene) || member < scene.members) return;
+    // Where the file does not have the member before, it is taken to have finished: few do not.
+    std::vector<double> const numbers = results.values("member"), statuses = results.values("status", numbers.size());
+    auto const before = std::ranges::find(numbers, static_cast<double>(member - scene.members)) - numbers.begin();
+    bool const goes_on = static_cast<std::size_t>(before) == numbers.size() || status_of(statuses[static_cast<std::size_t>(before)]) == Status::finished;
+    if (goes_on) scene.inputs.start_angle = scene.chaos.section.level;
 }
 
 }  // namespace slideway

@@ -100,6 +100,16 @@ TEST_F(StoredStates, MayBeSectionsOfAnOrbit) {
 }
 
 Vector cross(Vector const& a, Vector const& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+/// Columns of a continued sweep begin at the phase, where the one before has ended, and not at mechanism.start_angle.
+TEST_F(StoredStates, OfContinuedColumnsHaveTheirCrankWhereItWas) {
+    ASSERT_NO_FATAL_FAILURE(run_scene("schema = 1\n[mechanism]\ncrank_speed = 10\n[contact]\nlaw = \"foundation\"\nrestitution = 0.3\n[study]\nkind = \"sweep\"\n"
+                                      "phase = \"90 deg\"\nparameter = \"joint.clearance\"\nvalues = [1e-4, 1.1e-4]\nstart = \"continue\"\nmembers = 1\n"
+                                      "transient_revolutions = 1\nrevolutions = 1\nexponents = 0\n"));
+    auto const force = [&](char const* member) { return probed({"s.nc", "--member", member})["states"][0]["forces"]["rod_force_x"].get<double>(); };
+    EXPECT_GT(std::abs(force("0")), 0.01);
+    EXPECT_NEAR(force("1"), force("0"), 0.01 * std::abs(force("0")));  // it lies on its way in both
+}
+
 
 /// Newton's and Euler's laws with what is said of force and torque, and what friction takes pair by pair.
 TEST_F(StoredStates, AreExplainedByForcesThatMoveTheSlider) {
