@@ -50,6 +50,14 @@ bool starts_by_parameter(R r) {
     Key const& key = *r.scene.chaos.parameter;
     return is_of_start(key) || (turns_freely(r) && key.name == "mechanism.crank_speed");
 }
+/// Whether the parameter moves faces otherwise than the starts of columns follow (continued_sweep.cpp): those of a way that is straight and along X.
+bool starts_by_faces(R r) {
+    auto const is_parameter = [&](std::string_view beginning) { return r.scene.chaos.parameter->name.starts_with(beginning); };
+    constexpr std::array angles{"way.roll", "way.yaw", "way.pitch"};
+    bool const askew = is_shaped(r) || std::ranges::any_of(angles, [&](char const* key) { return r.given(key) || varies(r.scene, key); });
+    constexpr std::array fit{"joint.clearance", "joint.slider_length", "joint.way_", "mechanism.crank_length", "mechanism.rod_length", "slider.pin_"};
+    return is_parameter("way_") || std::ranges::any_of(angles, is_parameter) || (askew && std::ranges::any_of(fit, is_parameter));
+}
 bool steps_in_time(R r) { return by(r, Method::moreau_jean); }
 bool by_drive(R r, DriveBy by) { return r.scene.parts.drive.by == by; }
 bool on_profile(R r) { return by_drive(r, DriveBy::profile); }
@@ -218,6 +226,8 @@ constexpr KeyRule rows[] = {
     {orbits, "study.transient_revolutions", begins_anywhere, excludes, columns_begin, whole_transient},
     {orbits, "study.start", [](R r) { return is_sweep(r) && r.scene.chaos.continued && starts_by_parameter(r); }, excludes,
      "{parameter} is where a member starts, and columns start where the one before ended", "use start = \"fresh\", or another parameter"},
+    {orbits, "study.start", [](R r) { return r.scene.chaos.continued && starts_by_faces(r); }, excludes,
+     "{parameter} moves the faces of the way, and columns start where the one before ended", "use start = \"fresh\", or another parameter"},
     {orbits, "study.start",
      [](R r) { return r.scene.chaos.continued && info(r.scene.parts.mechanism).drive == DriveKind::carriage && r.scene.chaos.section.level != 0; }, excludes,
      "a carriage starts at phase 0, and columns would end at study.phase", "use start = \"fresh\", or phase = 0"},

@@ -17,14 +17,17 @@ struct Place {
 };
 
 /// A state of a joint in another one: places from the middle between faces and velocities keep their share of the clearance, tilts that of the tighter
-/// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.  From or to a preload, which leaves no gap to have a share
-/// of, it begins in the middle.
+/// gap, less where the slider is larger.  Else one that lay on its way would begin the next column inside it, or in the air.  From or to a preload, which
+/// leaves no gap to have a share of, it begins in the middle.  Where faces move otherwise than along Y and Z rules refuse the sweep.
 void put(Inputs& inputs, Inputs const& there, bool spatial) {
     auto const share = [](double now, double then) { return now > 0 && then > 0 ? now / then : 0; };
     double const along_y = share(mean_clearance_y(inputs), mean_clearance_y(there)), along_z = share(mean_clearance_z(inputs), mean_clearance_z(there));
-    double const tilt = spatial ? std::min(along_y, along_z) : along_y;
-    inputs.y = to_middle_y(inputs) + along_y * (there.y - to_middle_y(there));
-    inputs.z = to_middle_z(inputs) + along_z * (there.z - to_middle_z(there));
+    double tilt = spatial ? std::min(along_y, along_z) : along_y;
+    for (auto const length : {&Inputs::slider_length, &Inputs::way_width, &Inputs::way_depth}) tilt *= std::min(there.*length / inputs.*length, 1.0);
+    auto const middle_y = [](Inputs const& in) { return in.way_offset_y + to_middle_y(in); };
+    auto const middle_z = [](Inputs const& in) { return in.way_offset_z + to_middle_z(in); };
+    inputs.y = middle_y(inputs) + along_y * (there.y - middle_y(there));
+    inputs.z = middle_z(inputs) + along_z * (there.z - middle_z(there));
     inputs.vy = along_y * there.vy;
     inputs.vz = along_z * there.vz;
     for (auto const input : {&Inputs::roll, &Inputs::yaw, &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz}) {
@@ -35,15 +38,9 @@ void put(Inputs& inputs, Inputs const& there, bool spatial) {
 /// Runs some starts through the columns.
 class Chain {
 public:
-    Chain(Scene const& scene, BlockRequest const& request, MemberSource source, MemberSet asked,
-          BlockKernel const& kernel, MemberEnds ends, StopRequest const& stop)
-        : scene_(scene),
-          request_(request),
-          draw_(std::move(source)),
-          asked_(std::move(asked)),
-          kernel_(kernel),
-          ends_(std::move(ends)),
-          stop_(stop) {}
+    Chain(Scene const& scene, BlockRequest const& request, MemberSource source, MemberSet asked, BlockKernel const& kernel, MemberEnds ends,
+          StopRequest const& stop)
+        : scene_(scene), request_(request), draw_(std::move(source)), asked_(std::move(asked)), kernel_(kernel), ends_(std::move(ends)), stop_(stop) {}
 
     /// @param kernel for the members that are asked for: progress is told of them alone
     void run(BlockKernel const& kernel, BlockBuffers& buffers, std::span<std::uint64_t const> starts, BlockEmit const& emit) const {
@@ -111,12 +108,10 @@ private:
             (is_asked ? asked : leading).push_back(m);
             (is_asked ? place_of_asked : place_of_leading).push_back(i);
         }
-        return run_members(leading, place_of_leading, {kernel_, way.buffers, {}}, places) &&
-               run_members(asked, place_of_asked, way, places);
+        return run_members(leading, place_of_leading, {kernel_, way.buffers, {}}, places) && run_members(asked, place_of_asked, way, places);
     }
 
-    bool run_members(std::vector<std::uint64_t> const& members, std::vector<std::size_t> const& places_of, Way const& way,
-                     std::vector<Place>& places) const {
+    bool run_members(std::vector<std::uint64_t> const& members, std::vector<std::size_t> const& places_of, Way const& way, std::vector<Place>& places) const {
         auto const& [kernel, buffers, emit] = way;
         if (members.empty()) return true;
         MemberSource const source = [&](std::uint64_t m, Inputs& inputs) {
@@ -187,12 +182,10 @@ MemberSet members_before(Scene const& scene, MemberSet const& asked) {
     return before.without(asked);
 }
 
-void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, BlockKernel const& kernel,
-                      MemberEnds ends, StopRequest const& stop) {
+void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, BlockKernel const& kernel, MemberEnds ends, StopRequest const& stop) {
     plan.members = swept_starts(scene, asked);
     auto const chain = std::make_shared<Chain>(scene, plan.request, plan.source, asked, kernel, std::move(ends), stop);
-    plan.program = [chain](BlockKernel const& watched, BlockBuffers& buffers, std::span<std::uint64_t const> places,
-                           BlockEmit const& emit) {
+    plan.program = [chain](BlockKernel const& watched, BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
         chain->run(watched, buffers, places, emit);
     };
 }

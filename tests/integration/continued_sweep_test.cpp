@@ -89,6 +89,23 @@ TEST(ContinuedSweepStarts, OfTheSliderShareTheClearance) {
     }
 }
 
+TEST(ContinuedSweepStarts, OfTheSliderLieBetweenItsFacesAsTheyDid) {
+    auto const second = [](std::string const& text) {
+        Inputs const in = second_column(testing::scene_of(text), {1e-5, 3e-5, 2, 4, 5, 6, 7, 8, 9, 10})[1];
+        return std::vector{in.y, in.z, in.vy, in.roll, in.pitch, in.wz};
+    };
+    std::string text = continued("slider_crank", "");
+    auto const with = [&](std::string const& parameter) { return std::string(text).replace(text.find("joint.clearance"), 15, parameter); };
+    auto const expect_near = [](std::vector<double> const& found, std::vector<double> const& right) {
+        for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(found[i], right[i], 4e-15 * right[i]) << i;
+    };
+    expect_near(second(with("way.offset_y")), {1e-5 + 1e-4, 3e-5, 2, 5, 7, 10});
+    expect_near(second(with("way.offset_z")), {1e-5, 3e-5 + 1e-4, 2, 5, 7, 10});
+    expect_near(second(with("joint.slider_length")), {1e-5, 3e-5, 2, 2.5, 3.5, 5});  // twice as long: half as tilted
+    text.replace(text.find("[1e-4, 2e-4]"), 12, "[4e-2, 2e-2]");
+    expect_near(second(with("joint.slider_length")), {1e-5, 3e-5, 2, 5, 7, 10});
+}
+
 TEST(ContinuedSweepStarts, OfThePlanarMechanismFollowFromItsAngles) {
     // Half a turn after the phase nothing is left of the crank's height: y = L sin θ2.
     double const rod = 1e-4, rate = 0.5, pi = std::acos(-1.0);

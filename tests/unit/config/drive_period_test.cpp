@@ -205,5 +205,24 @@ TEST(ContinuedSweeps, OfACarriageTakeTheirSectionsAtItsStart) {
               "study.phase); use start = \"fresh\", or phase = 0");
 }
 
+TEST(ContinuedSweeps, AreRefusedWhereFacesMoveOtherwiseThanStartsFollow) {
+    auto const sweep = [](std::string const& parameter, std::string const& way) {
+        return error_of(with_kind("slider_crank", "[contact]\nlaw = \"foundation\"\n" + way + "[study]\nkind = \"sweep\"\nparameter = \"" + parameter +
+                                                      "\"\nvalues = [2e-4, 1e-4]\nexponents = 0\nstart = \"continue\"\n"));
+    };
+    std::string const leans = "[way]\npitch = 1e-4\n", ends = "[way_ends]\nfrom = \"50 mm\"\nto = \"250 mm\"\n",
+                      scatters = "[study.vary]\n\"way.yaw\" = { dist = \"unif\", low = 0, high = 1e-4 }\n";
+    for (char const* const parameter : {"joint.clearance", "joint.slider_length", "way.offset_y"}) EXPECT_EQ(sweep(parameter, ""), "");
+    for (char const* const parameter : {"way.offset_y", "material.density", "joint.thickness_y"}) EXPECT_EQ(sweep(parameter, leans), "");
+    constexpr std::pair<char const*, int> moved[] = {{"way.roll", 0}, {"way.pitch", 1}, {"joint.clearance", 1}, {"slider.pin_x", 1},
+                                                     {"joint.clearance_y", 2}, {"way_ends.from", 2}, {"joint.clearance", 3}};
+    std::string const ways[] = {"", leans, ends, scatters};
+    for (auto const& [parameter, way] : moved) {
+        std::string const words = std::string(" (") + parameter + " moves the faces of the way, and columns start where the one before ended); "
+                                  "use start = \"fresh\", or another parameter", told = sweep(parameter, ways[way]);
+        EXPECT_NE(told.find(words), std::string::npos) << parameter << ": " << told;
+    }
+}
+
 }  // namespace
 }  // namespace slideway::drive_period_test
