@@ -13,6 +13,8 @@ import xarray as xr
 from conftest import Result, labels_of, root
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
+from slideway.report.figures import _exponents
+from slideway.report.numbers import number
 from slideway.units import scaled
 
 plot = slideway.plot
@@ -149,6 +151,17 @@ def test_exponent_history_ends_at_the_exponents(result_of: Result, ax: Axes) -> 
     plot.exponent_history(result, member=[2], ax=ax)
     assert ax.lines[-1].get_ydata()[-1] == pytest.approx(float(result.lyapunov_exponent[2, 0]), rel=1e-9)
     assert ax.lines[-1].get_xdata()[-1] == pytest.approx(1e3 * float(result.lyapunov_time[2]), rel=1e-6)  # ms
+
+
+def test_exponents_over_different_times_are_drawn_over_rescalings(result_of: Result, ax: Axes) -> None:
+    result = result_of("lyapunov")
+    result["lyapunov_time"] = result["lyapunov_time"] * np.where(result.member == 2, 0.1, 1.0)
+    plot.exponent_history(result, ax=ax)
+    assert ax.get_xlabel() == "rescalings"
+    assert ax.lines[-1].get_xdata()[-1] == float(result.history[-1])
+    words = [figure.caption for figure in _exponents(result) if figure is not None]
+    shortest, longest = (number(float(edge)) for edge in (result.lyapunov_time.min(), result.lyapunov_time.max()))
+    assert f" over {shortest} to {longest} s each" in words[0]
 
 
 def test_exponent_histogram_of_a_sweep_averages_over_no_column(ax: Axes) -> None:

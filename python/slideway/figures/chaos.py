@@ -63,7 +63,7 @@ def fitted(curve: SeriesStatistics, first: int, last: int) -> tuple[Array, Array
 
 @drawn
 def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, exponent: int = 1) -> Panel:
-    """How a Lyapunov exponent settles with the time over which it is taken.
+    """How a Lyapunov exponent settles with the time over which it is taken, or where members have different ones with their rescalings.
 
     Args:
         member: number of a member, or several; left out: all.
@@ -78,19 +78,20 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
     data = exponent_of(variable(result, "lyapunov_history"), exponent)
     members = chosen(result, member)
     rows = data.sel(member=members).values
-    # All members are rescaled at the same times: the schedule is the scene's.
     every = (result["lyapunov_time"] / result["rescalings"]).sel(member=members).values
     if not np.isfinite(every).any():
         raise SlidewayError("none of these members finished; see slideway.statuses(result)")
-    time = result["history"].values * float(np.nanmedian(every))
-    factor, unit = scaled("s", time)
+    across, x = result["history"].values, Axis("rescalings", tight=True)
+    if np.nanmax(every) - np.nanmin(every) <= 1e-6 * np.nanmin(every):  # the drives of all are as fast
+        factor, unit = scaled("s", across * np.nanmin(every))
+        across, x = factor * across * np.nanmin(every), Axis("time", unit, tight=True)
     if not np.isfinite(rows).any():
         raise SlidewayError("none of these members has a running exponent; see slideway.statuses(result)")
     # The first values are those of single stretches, and would flatten all others.
     later = rows[:, rows.shape[1] // 10 :]
     low, high = np.nanmin(later), np.nanmax(later)
     y = Axis(f"running λ{lowered(exponent)}", "1/s", low=min(low, 0) - 0.05 * (high - low), high=max(high, 0) + 0.1 * (high - low))
-    return Panel([Level(0.0), *members_over(factor * time, rows, members, failures(result, members))], Axis("time", unit, tight=True), y)
+    return Panel([Level(0.0), *members_over(across, rows, members, failures(result, members))], x, y)
 
 
 @drawn

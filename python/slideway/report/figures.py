@@ -210,8 +210,9 @@ def _exponents(result: xr.Dataset) -> list[Figure | None]:
     numbers = range(1, result.sizes["exponent"] + 1)
     found: list[Figure | None] = []
     if ended.sum() > 1:
-        span = float(result["lyapunov_time"].values[ended].mean())
-        caption = f"Finite-time exponents of {counted(int(ended.sum()), 'member')} over {number(span)} s each, and their mean with its 95 % interval."
+        times = result["lyapunov_time"].values[ended]
+        span = " to ".join(dict.fromkeys((number(times.min()), number(times.max()))))
+        caption = f"Finite-time exponents of {counted(int(ended.sum()), 'member')} over {span} s each, and their mean with its 95 % interval."
         variants = ((f"λ{lowered(k)}", panel_of(chaos.exponent_histogram, result, exponent=k)) for k in numbers)
         found.append(_of("exponents", "Lyapunov exponents", caption, variants, choice="Exponent"))
     if "lyapunov_history" in result and result.sizes["history"] >= 4:
