@@ -30,7 +30,7 @@ members = 12
 revolutions = 1.5
 time_limit = "20 s"
 samples_per_revolution = 40
-quantities = ["energy_residual", "ax"]
+quantities = ["energy_residual", "ax", "normal_force", "surfaces", "lines", "points"]
 [study.vary]
 "initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
 """
@@ -41,6 +41,12 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
     path = Path(tmp_path_factory.mktemp("turns")) / "s.toml"
     path.write_text(SCENE)
     return slideway.run(path, progress=False)
+
+
+def test_shares_of_samples_by_angle_are_not_called_time(result: xr.Dataset) -> None:
+    words = [text.get_text() for text in slideway.plot.force_histogram(result).get_legend().get_texts()]
+    assert any(word.startswith("point, ") and word.endswith(" of the samples") for word in words), words
+    assert not any("time" in word for word in words)
 
 
 def test_samples_are_found_by_angle_and_have_times(result: xr.Dataset) -> None:

@@ -178,7 +178,8 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     """How often which normal force acts, by the class of the contact mode (Fig. 11 of Qian et al. 2020).
 
     By the hardest contact of the moment: a surface, else a line, else a point. Both axes are logarithmic, for the rare contacts of
-    lines and surfaces have the largest forces. All shares, those of the legend too, are of all samples.
+    lines and surfaces have the largest forces. All shares, those of the legend too, are of all samples: of the time, unless they are
+    taken at angles of a crank that turns freely.
 
     Args:
         member: number of a member, or several; left out: all.
@@ -213,11 +214,12 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     low, high = np.quantile(force[pushing], (0.001, 1.0))
     edges = factor * np.geomspace(max(low, 1e-6 * high), high * 1.0001, bins + 1)
     least = 100 / there.sum()  # one sample
+    of = "time" if sample_axis(result)[1] == "s" else "samples"
     marks: list[Mark] = []
     for name, own in of_class.items():
         counts = np.histogram(factor * force[own], edges)[0] * least
         share = own.sum() / there.sum()
         heights = np.maximum(counts, 0.5 * least)
-        marks.append(Bars(edges, heights, f"{name}, {share:.2%} of the time", class_colours[name], base=0.5 * least, outlined=True))
+        marks.append(Bars(edges, heights, f"{name}, {share:.2%} of the {of}", class_colours[name], base=0.5 * least, outlined=True))
     marks.append(Note(f"free flight, {1 - touching.sum() / there.sum():.2%}"))
     return Panel(marks, Axis("normal force", unit, log=True), Axis("share of all samples", "%", log=True, low=0.5 * least))
