@@ -85,7 +85,7 @@ static_assert(std::size(damping_names) == damping_count && std::size(damping_mea
 constexpr std::string_view study_meanings[] = {
     "every member to the end time, summary statistics",
     "the largest Lyapunov exponents of every member, and how they converged",
-    "states at a crank angle, or where a state or a gap crosses a level",
+    "states at a phase of the drive, or where a state or a gap crosses a level",
     "sections and exponents, column by column, as one key changes",
     "how quantities scatter with what varies, what drives them, which limits they meet",
 };

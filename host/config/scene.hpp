@@ -60,8 +60,7 @@ struct SectionSurface {
     enum class On { phase, state, gap_y, gap_z, impacts };
     On on = On::phase;
     int index = 0;  // in the mechanism's state (mechanism_info.hpp), or of the apex, P1…P8 from 0
-    double level =
-        0;  // crank angle, or phase of the carriage [rad], any turn; else the state's unit, or [m] of the gap
+    double level = 0;  // crank angle, or phase of a carriage or a profile [rad], any turn; else the state's unit, or [m] of the gap
     CrossingDirection direction = CrossingDirection::rising;  // a phase has none
 
     bool is_phase() const { return on == On::phase; }

@@ -13,7 +13,7 @@ import xarray as xr
 from conftest import Result, labels_of, root
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
-from slideway.report.figures import _exponents
+from slideway.report.figures import _exponents, _poincare
 from slideway.report.numbers import number
 from slideway.units import scaled
 
@@ -151,6 +151,19 @@ def test_exponent_history_ends_at_the_exponents(result_of: Result, ax: Axes) -> 
     plot.exponent_history(result, member=[2], ax=ax)
     assert ax.lines[-1].get_ydata()[-1] == pytest.approx(float(result.lyapunov_exponent[2, 0]), rel=1e-9)
     assert ax.lines[-1].get_xdata()[-1] == pytest.approx(1e3 * float(result.lyapunov_time[2]), rel=1e-6)  # ms
+
+
+def test_a_phase_is_a_crank_angle_of_cranks_at_constant_speed_alone(result_of: Result) -> None:
+    result = result_of("poincare")
+    scene = result.attrs["scene"]
+
+    def caption() -> str:
+        return getattr(_poincare(result), "caption", "")
+
+    assert " at the crank angle 0 rad. " in caption()
+    for of_scene, other in (('kind = "slider_crank"', 'kind = "carriage"'), ('[joint]', '[drive]\nkind = "profile"\n[joint]')):
+        result.attrs["scene"] = scene.replace(of_scene, other, 1)
+        assert " at the phase 0 rad of the drive's period. " in caption()
 
 
 def test_exponents_over_different_times_are_drawn_over_rescalings(result_of: Result, ax: Axes) -> None:

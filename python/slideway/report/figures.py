@@ -192,8 +192,10 @@ def _poincare(result: xr.Dataset) -> Figure | None:
     """The map of all members' sections, in several planes."""
     if "section_member" not in result.coords or (sections := slideway.sections(result)).sizes["section"] == 0:
         return None
-    study = slideway.scene(result)["study"]
-    where = f"at the crank angle {number(study.get('phase', 0.0))} rad" if "section" not in study else "where the scene's study.section is crossed"
+    scene = slideway.scene(result)
+    study, by_period = scene["study"], base.kind_of(result) == "carriage" or scene.get("drive", {}).get("kind") == "profile"
+    phase = f"{number(study.get('phase', 0.0))} rad" + (" of the drive's period" if by_period else "")
+    where = f"at the {'phase' if by_period else 'crank angle'} {phase}" if "section" not in study else "where the scene's study.section is crossed"
     count = sections.sizes["section"]
     caption = (f"{counted(count, 'state')} of {counted(len(np.unique(sections['member'])), 'member')} {where}. "
                "A few points are a periodic motion, a closed curve a quasi-periodic one, a cloud an irregular one.")  # fmt: skip
