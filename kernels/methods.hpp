@@ -14,7 +14,7 @@ inline constexpr MethodInfo method_table[] = {
     {"auto", "explicit pair in flight and impacts, ros34pw2 where lasting contact makes a member stiff"},
     {"dopri5", "Dormand-Prince 5(4); the explicit pair of auto wherever bs32 is not"},
     {"dop853", "Dormand-Prince 8(5,3): for smooth motion at tight tolerances; contacts gain nothing"},
-    {"bs32", "Bogacki-Shampine 3(2); the explicit pair of auto from rtol 1e-5 on where forces jump, or with restitution"},
+    {"bs32", "Bogacki-Shampine 3(2); the explicit pair of auto from rtol 1e-5 on with restitution, or where steps leap over jumps of the force"},
     {"ros34pw2", "Rosenbrock W-method 3(2) alone: for lasting contact, it loses energy in impacts"},
     {"rk4", "classical Runge-Kutta with the fixed step integrator.step"},
     {"verner65", "Verner 6(5) with steps that end where contacts begin and end, and a clock within them: for impacts"},
@@ -34,8 +34,8 @@ constexpr bool is_explicit_pair(Method method) {
     return method == Method::dopri5 || method == Method::dop853 || method == Method::bs32 || method == Method::verner65;
 }
 
-/// Whether the explicit pair of `auto` is bs32: at loose tolerances it beats dopri5 (integrators.md), but for steps that end where contacts change.
-constexpr bool auto_takes_bs32(double rtol, bool ends_at_changes) { return rtol >= 1e-5 && !ends_at_changes; }
+/// Whether the explicit pair of `auto` is bs32: at loose tolerances it beats dopri5 (integrators.md), but for steps within which forces are smooth.
+constexpr bool auto_takes_bs32(double rtol, bool smooth_within) { return rtol >= 1e-5 && !smooth_within; }
 
 constexpr char const* name_of(Method method) { return method_table[static_cast<int>(method)].name; }
 

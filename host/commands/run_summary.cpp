@@ -53,19 +53,8 @@ std::string replay_command(RunArguments const& arguments, Scene const& scene, st
 }
 
 std::string_view advice_on(Method method) {
-    switch (method) {
-        case Method::rk4:
-        case Method::moreau_jean:
-            return "use a smaller integrator.step, or method = \"auto\"";
-        case Method::ros34pw2:
-            return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
-        case Method::automatic:
-        case Method::dopri5:
-        case Method::dop853:
-        case Method::bs32:
-        case Method::verner65:
-            break;
-    }
+    if (has_fixed_step(method)) return "use a smaller integrator.step, or method = \"auto\"";
+    if (method == Method::ros34pw2) return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
     return "use smaller rtol and atol";
 }
 

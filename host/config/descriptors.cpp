@@ -170,7 +170,9 @@ bool choose_contact(Parts& parts, std::string_view name, std::span<std::string c
 
 bool has_faces(Parts const& parts) { return info(parts.mechanism).spatial && !parts.rigid; }
 bool has_switches(Parts const& parts) { return makes_energy(parts) && parts.damping != Damping::restitution; }
-bool ends_at_changes(Parts const& parts) { return contact_info(parts).continuous && parts.damping != Damping::restitution; }
+bool ends_at_changes(Parts const& parts) {
+    return (contact_info(parts).continuous || contact_info(parts).ends_steps) && parts.damping != Damping::restitution;
+}
 bool needs_restitution(Parts const& parts) { return parts.rigid || (has_faces(parts) && info(parts.law).needs_restitution); }
 bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && contact_info(parts).switches; }
 

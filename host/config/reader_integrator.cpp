@@ -72,8 +72,8 @@ double step_within_loads(Scene const& scene, double period) {
     for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->rows().size(); ++i) {
         Load const& load = scene.loads->load(i);
         limit(scene.loads->rows()[i].table, load.over);
-        // A third of the time that the slider alone is on it.
-        if (load.kind == LoadKind::stop) step = std::min(step, std::sqrt(in.slider_mass / (in.*load_inputs[load.stiffness])));
+        // A tenth of the time that the slider alone is on it: a step across its touch has no order.
+        if (load.kind == LoadKind::stop) step = std::min(step, 0.3 * std::sqrt(in.slider_mass / (in.*load_inputs[load.stiffness])));
     }
     if (scene.drive != nullptr) limit(scene.drive->table, scene.parts.drive.by == DriveBy::profile ? LoadArgument::time : scene.parts.drive.over);
     return step;
@@ -151,8 +151,7 @@ void read_integrator(Reading& reading) {
     double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;
     if (!reading.given("integrator.max_step")) settings.max_step = std::min(max_step, reversal);
     // The stiff method runs in lasting contact alone, where nothing is to be leapt over; what is rigid slides at the drive's pace then.
-    bool const at_pace = scene.parts.rigid && std::isfinite(period) && !reading.given("integrator.max_step");
-    double const longest_stiff = at_pace ? period / 50 : 10 * settings.max_step;
+    double const longest_stiff = scene.parts.rigid && std::isfinite(period) && !reading.given("integrator.max_step") ? period / 50 : 10 * settings.max_step;
     double const stiff_step = std::min({longest_stiff, reverses ? reversal : longest_stiff, of_loads});
     if (!reading.given("integrator.stiff_max_step")) settings.stiff_max_step = stiff_step;
     if (Node const* const table = reading.given("integrator")) warn_of_idle_keys(*table, reading);

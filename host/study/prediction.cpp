@@ -22,7 +22,7 @@ namespace {
 /// that never comes to rest long enough to change over.
 double contact_steps(Parts const& parts, IntegratorSettings const& settings) {
     double const finer = 1e-6 / std::min(settings.rtol, settings.atol);
-    bool const low_order = settings.method == Method::bs32 || (settings.method == Method::automatic && auto_takes_bs32(settings.rtol, ends_at_changes(parts)));
+    bool const low_order = settings.method == Method::bs32 || (settings.method == Method::automatic && auto_takes_bs32(settings.rtol, settings.locate_modes || ends_at_changes(parts)));
     return low_order ? 15 * std::cbrt(finer) : 5 * std::pow(finer, 0.2);
 }
 

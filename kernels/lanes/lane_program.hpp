@@ -178,7 +178,7 @@ private:
         if (settings.method == Method::rk4) return pair_numbers<RungeKutta4>();
         // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (integrators.md).
         if (settings.method == Method::dop853 || (is_automatic && is_smooth)) return pair_numbers<Dop853>();
-        bool const is_loose = is_automatic && auto_takes_bs32(settings.rtol, watching == Watching::gaps);
+        bool const is_loose = is_automatic && auto_takes_bs32(settings.rtol, watching == Watching::gaps || holds_contacts(watching));
         if (settings.method == Method::bs32 || is_loose) return pair_numbers<BogackiShampine>();
         return pair_numbers<DormandPrince>();
     }
@@ -220,8 +220,9 @@ private:
         pattern_ = Real(0.0);
         if constexpr (Regroups<Model>) {
             auto const& s = pack_.state;
+            // Shadows want the motion between two changes of mode as it is, ringing and all.
             bool const switching = HasStiffSteps<Model> && block_.settings.method == Method::automatic &&
-                                   !block_.settings.locate_modes;
+                                   !(Model::has_shadows && block_.settings.locate_modes);
             if (width == 1 && !switching) return;
             pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters, s.contacts.memory);
             if constexpr (HasStiffSteps<Model>) {

@@ -138,9 +138,7 @@ private:
         allowed = step_.adapts() ? allowed_by_error(verdict.divergent) : allowed_if_finite(verdict.divergent);
         verdict.cut = contacts_.cut(step_, allowed);
         if (step_.results.by_turns()) verdict.cut = verdict.cut | turns_.cut(step_, allowed);
-        if constexpr (Stepper::stiff && Model::has_patterns) {
-            if (step_.is_auto()) verdict.impact = Choice::find_impacts(pack, step_.attempt, allowed.accepted);
-        }
+        if (Stepper::stiff && step_.is_auto()) verdict.impact = Choice::find_impacts(pack, step_.attempt, allowed.accepted);
         verdict.accepted = verdict.accepted & !verdict.impact;
         verdict.rejected = pack.busy & !verdict.accepted;
         return verdict;

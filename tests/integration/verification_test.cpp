@@ -85,6 +85,9 @@ TEST(Verdict, TakesAFixedStepToErrByFirstOrder) {
     study.other = -0.25;  // by small tolerances
     study.methods = check_methods(stepped);
     EXPECT_NEAR(study.checked().error.difference, -1, 1e-9);
+    // Its steps cannot end where a force jumps, nor do those of its check.
+    stepped.parts.law = Law::paper;
+    EXPECT_FALSE(check_methods(stepped).front().scene.integrator.locate_modes);
 }
 
 TEST(Verdict, IsNotResolvedWhereADifferenceIsBeyondChanceAndAboveTheMargin) {

@@ -38,17 +38,17 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 20'007u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'201u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'944u);
-    EXPECT_LE(Layer("host").lines(), 31'690u);
+    EXPECT_LE(Layer("kernels").lines(), 20'121u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'267u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'989u);
+    EXPECT_LE(Layer("host").lines(), 31'685u);
     EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
-    EXPECT_LE(kernels.count(type).in_all, 400u);
+    EXPECT_LE(kernels.count(type).in_all, 401u);
     EXPECT_LE(Layer("host").count(type).in_all, 376u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 46u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
@@ -56,7 +56,7 @@ TEST(Budgets, OfTypes) {
 
 TEST(Budgets, OfChoicesInSteps) {
     auto const choices = Layer("kernels/lanes").count(Pattern("if constexpr"));
-    EXPECT_LE(choices.in_all, 31u);
+    EXPECT_LE(choices.in_all, 30u);
     EXPECT_LE(choices.most, 5u) << "in one file";
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/study/ensemble_plan.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::locate_modes_test {
@@ -104,6 +105,28 @@ TEST(LocatedModes, AreWhatEnsemblesHaveUnlessTheirScenesSayOtherwise) {
     EXPECT_LT(median_error(usual, reference), 0.5 * median_error(leapt, reference));
     EXPECT_LT(evaluations(usual), evaluations(leapt));
     EXPECT_EQ(usual.states, run_scene("rtol = 1e-6\nlocate_modes = true").states);
+}
+
+/// A slider that is pressed on its way and slides there does not ring for long: `auto` goes on with the stiff method, as it does where steps leap.
+TEST(LocatedModes, LeaveLastingContactToTheStiffMethod) {
+    auto const pressed = [](bool located) {
+        testing::RunOptions o;
+        o.parts = {Law::paper, Damping::rate, true, false};
+        o.parts.mechanism = Mechanism::carriage;
+        o.settings.method = Method::automatic;
+        o.settings.locate_modes = located;
+        o.settings.end_time = 0.1;
+        o.settings.max_steps = 1'000'000;
+        Inputs in;
+        in.gravity = 9800, in.carriage_speed = 0.06;
+        in.chi_surface = in.chi_line = 100;
+        in.y = -in.clearance_y;
+        return testing::run(best_isa(), o, {complete_inputs(in, info(Mechanism::carriage))}).records[0];
+    };
+    auto const located = pressed(true), leapt = pressed(false);
+    EXPECT_EQ(located.status, Status::finished);
+    EXPECT_GT(located.stiff_steps, located.steps_accepted / 2);
+    EXPECT_LT(located.rhs_evaluations, 2 * leapt.rhs_evaluations);
 }
 
 TEST(LocatedModes, LetTheErrorFallAsTheOrderOfTheMethodSays) {

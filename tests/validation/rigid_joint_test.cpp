@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "kernels/mechanisms/list.hpp"
@@ -73,6 +74,45 @@ TEST(RigidJoint, OfAutoAreThoseOfDormandPrince) {
     auto const other = testing::run(best_isa(), o, {in});
     EXPECT_EQ(of_auto.records[0].rhs_evaluations, same.records[0].rhs_evaluations);
     EXPECT_NE(of_auto.records[0].rhs_evaluations, other.records[0].rhs_evaluations);
+}
+
+/// The crank's slider lies on its way at a dead centre, away from the middle.
+testing::EnsembleResult sliding(double crank_speed, double turned, Method method, double tolerance) {
+    Inputs in = slider(0.5, 0.1);
+    in.crank_speed = crank_speed;
+    in.y = -in.clearance_y, in.z = 0.3 * in.clearance_z;
+    auto o = rigid_options(rigid_joint_parts(true, false, Mechanism::slider_crank), tolerance, turned / crank_speed);
+    o.settings.method = method;
+    o.settings.max_step = 0.05;
+    o.settings.stiff_max_step = 2 * std::numbers::pi / crank_speed / 50;
+    auto r = testing::run(best_isa(), o, {in});
+    EXPECT_EQ(r.records[0].status, Status::finished);
+    return r;
+}
+
+/// Friction takes a sideways slip v back at the rate μ g/v, and more than a hundred thousand explicit steps would follow it for each radian.
+TEST(RigidJoint, SlowSlidingHasThePaceOfTheDrive) {
+    for (double const speed : {0.1, 0.01}) {
+        auto const record = sliding(speed, 3, Method::automatic, 1e-6).records[0];
+        EXPECT_LT(record.steps_accepted + record.steps_rejected, 1000u) << speed;
+        EXPECT_GT(record.stiff_steps, 50u) << speed;
+    }
+    auto const slow = sliding(0.2, 3, Method::automatic, 1e-8).states[0], reference = sliding(0.2, 3, Method::dopri5, 1e-10).states[0];
+    Inputs const in = slider(0.5);
+    EXPECT_GT(std::abs(reference[1] - 0.3 * in.clearance_z), 1e-3 * in.clearance_z) << "it is moved to the side";
+    EXPECT_NEAR(slow[1], reference[1], 1e-6 * in.clearance_z);
+    EXPECT_NEAR(slow[5], reference[5], 1e-6 * in.clearance_z / in.slider_length);
+}
+
+TEST(RigidJoint, RestCostsAFreeSliderFewSteps) {
+    Inputs in = slider(0.5, 0.3);
+    in.inclination = 0.05, in.y = -in.clearance_y, in.vx = 0.01;
+    auto o = rigid_options(rigid_joint_parts(true), 1e-6, 10);
+    o.settings.max_step = 0.05;
+    auto const r = testing::run(best_isa(), o, {in});
+    ASSERT_EQ(r.records[0].status, Status::finished);
+    EXPECT_NEAR(r.states[0][11], 0, 1e-6) << "friction holds it";
+    EXPECT_LT(r.records[0].steps_accepted + r.records[0].steps_rejected, 5000u) << "500 a second";
 }
 
 TEST(RigidJoint, FlatBouncesHaveTheirHeightsAndTimes) {

@@ -26,13 +26,14 @@ TEST(Methods, AreNamedInTheirOrder) {
     EXPECT_EQ(IntegratorSettings{}.method, Method::automatic);
 }
 
-testing::EnsembleResult flight(Method method, double tolerance, Law law) {
+testing::EnsembleResult flight(Method method, double tolerance, Law law, bool located = false) {
     // Two milliseconds in free flight.
     testing::RunOptions o;
     o.parts = {law, Damping::point, true, false};
     o.settings.method = method;
     o.settings.rtol = o.settings.atol = tolerance;
     o.settings.end_time = 2e-3;
+    o.settings.locate_modes = located;
     return testing::run(best_isa(), o, testing::scattered_starts(9));
 }
 
@@ -42,14 +43,17 @@ bool same(testing::EnsembleResult const& a, testing::EnsembleResult const& b) {
 }
 
 TEST(Methods, AutoIsThePairThatItsToleranceAsksFor) {
-    auto const is = [](Law law, double tolerance, Method method) {
-        return same(flight(Method::automatic, tolerance, law), flight(method, tolerance, law));
+    auto const is = [](Law law, double tolerance, Method method, bool located = false) {
+        return same(flight(Method::automatic, tolerance, law, located), flight(method, tolerance, law, located));
     };
     for (double const tolerance : {1e-4, 1e-5}) EXPECT_TRUE(is(Law::paper, tolerance, Method::bs32)) << tolerance;
     for (double const tolerance : {9e-6, 1e-9}) EXPECT_TRUE(is(Law::paper, tolerance, Method::dopri5)) << tolerance;
     // Where its steps end at changes of the contacts.
     for (double const tolerance : {1e-3, 1e-5, 1e-9}) EXPECT_TRUE(is(Law::conservative, tolerance, Method::dopri5)) << tolerance;
     EXPECT_FALSE(is(Law::conservative, 1e-9, Method::bs32));
+    // Or at them.
+    EXPECT_TRUE(is(Law::paper, 1e-4, Method::dopri5, true));
+    EXPECT_TRUE(is(Law::kelvin_voigt, 1e-4, Method::dopri5));
 }
 
 }  // namespace
