@@ -167,7 +167,7 @@ struct ProbeResult {
     double normal_force_y[8], normal_force_z[8];        // [N]
     int surfaces, lines, points;
     double energy, contact_potential;  // [J]
-    double crank_torque;               // [N m], of the drive, as in the series
+    double crank_torque;               // [N m], without the crank's own weight
     double signals[most_signals];      // of the mechanism's own, as many as it has
     double forces[series_count - first_force_series];  // as series have them, of a mechanism that tells them
     double approach_y[8], approach_z[8], sliding_y[8], sliding_z[8];  // δ' and V of the apices [m/s], likewise

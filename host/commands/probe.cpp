@@ -153,7 +153,10 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
         if (table.has_loads && (value != 0 || power.value == &ProbeResult::power_load)) powers += fmt::format(", {:.10g} W {}", value, power.label);
     }
     print_field("power", powers);
-    if (selects(has.series, Series::crank_torque)) print_field("crank torque", fmt::format("{:.10g} N m of the drive", result.crank_torque));
+    if (selects(has.series, Series::crank_torque)) {
+        std::string_view const weight = has.spatial ? "without the crank's own weight" : "the crank's own weight included";
+        print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));
+    }
     for (std::size_t i = 0; i < has.signals.size(); ++i)
         print_field(has.signals[i].name, fmt::format("{:.10g} {}", result.signals[i], has.signals[i].unit));
 }

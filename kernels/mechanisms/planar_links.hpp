@@ -105,7 +105,7 @@ template <class Real> struct PlanarLinks {
         report.acceleration = centre_acceleration(motion);
         report.top = report.front = zero;  // sensors that it has not
         Real const drive = turns_freely ? motor : fma(p.m11, given, fms(motion.m12, motion.a2, motion.r1));
-        report.drive_torque = drive;  // the crank's weight is in the equations
+        report.crank_torque = report.drive_torque = drive;  // the crank's weight is in the equations
         report.crank_power = drive * w1;
         report.load_power = loads.power;
         report.ground_power = loads.ground_power;

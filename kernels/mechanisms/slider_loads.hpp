@@ -66,6 +66,7 @@ template <class Real> struct SliderLoads {
         report.spring_loss = spring_loss;
         report.spring_potential = potential;
         report.energy = report.energy + potential;
+        report.crank_torque = report.crank_torque - pin_torque;
         if (drive.turns_freely()) {
             report.ground_power = report.ground_power + weight_power;
             return;

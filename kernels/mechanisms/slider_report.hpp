@@ -52,7 +52,7 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
         Vec3<Real> momentum{p.inertia.x * w.x, p.inertia.y * w.y, p.inertia.z * w.z};
         Real const kinetic = half * fma(p.slider_mass, dot(u.velocity, u.velocity), dot(w, momentum));
         this->energy = fnma(p.slider_mass, dot(gravity, u.position), kinetic) + contact.potential;
-        this->drive_torque = this->rod_spin = rod_spin_z = zero;
+        this->crank_torque = this->drive_torque = this->rod_spin = rod_spin_z = zero;
         this->position_error = sqrt(fma(u.position.y, u.position.y, u.position.z * u.position.z));
     }
 
@@ -72,11 +72,11 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
         this->crank_power = dot(pin_force, a.velocity);
         if (powers_alone) return;
         fill_slider(b, turning, p);
-        Real const of_rod = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);  // (A × F_A)_z
+        this->crank_torque = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);
         // m_c g (r/2) cos(θ + β) = −(m_c r/2)(g_y cos θ − g_x sin θ)
         Real const inverse_r = one / p.crank_length;
         Real const lever = fms(p.gravity_y, a.position.x, p.gravity_x * a.position.y) * inverse_r;
-        this->drive_torque = fnma(p.crank_moment, lever, of_rod);
+        this->drive_torque = fnma(p.crank_moment, lever, this->crank_torque);
 
         // E = ½M|u'|² + ½m_r|(1−f_r)v_A + f_r v_B|² + ½(J/L²)|v_B−v_A|² + ½ωᵀIω − M g⃗·u − m_r g⃗·((1−f_r)A + f_r B) + U.
         auto const center = p.rod_mass_center;

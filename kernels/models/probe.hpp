@@ -99,7 +99,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             result.points = static_cast<int>(lane(c.points, i));
             result.energy = lane(report.energy, i);
             result.contact_potential = lane(c.potential, i);
-            result.crank_torque = lane(report.drive_torque, i);
+            result.crank_torque = lane(report.crank_torque, i);
             if constexpr (requires { report.forces; }) detail::put_forces(report.forces, i, result);
             double* signal = result.signals;
             if constexpr (requires { report.signal; }) for (Real const& value : report.signal) *signal++ = lane(value, i);

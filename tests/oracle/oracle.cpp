@@ -263,7 +263,6 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
         result.crank_torque_with_weight = static_cast<double>(free.motor);
     } else {
         result.power_crank -= static_cast<double>(of_crank);
-        result.crank_torque_with_weight -= static_cast<double>(loads.crank_torque);
     }
     result.power_ground = static_cast<double>(ground_power);
     result.energy = static_cast<double>(energy);

@@ -44,7 +44,7 @@ struct Result {
     double energy = 0;                    // E of section 8 [J], potentials included
     double contact_potential = 0;         // U [J]
     double crank_torque = 0;              // (A x F_A)_z [N m], as in the golden tables; 0 without a crank
-    double crank_torque_with_weight = 0;  // of the drive: with the weight of the crank itself, less what loads turn it with
+    double crank_torque_with_weight = 0;  // with the weight of the crank itself
     double x = 0, vx = 0;                 // slider's centre along X [m], [m/s]
     Vector acceleration{};                // of the slider's centre [m/s²]
     double acceleration_top = 0;    // along K's Y of the body point (0, w_a/2 + 10 mm, 0), without gravity [m/s²]

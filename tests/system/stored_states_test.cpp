@@ -41,7 +41,7 @@ rtol = 1e-8
 members = 3
 duration = "20 ms"
 samples = 21
-quantities = ["normal_force", "face_force_y_plus", "face_along_y_plus", "friction_force_x", "contact_force_y", "crank_torque"]
+quantities = ["normal_force", "face_force_y_plus", "face_along_y_plus", "friction_force_x", "contact_force_y"]
 [study.vary]
 "joint.clearance" = { dist = "unif", low = "0.05 mm", high = "0.2 mm" }
 "way.roll" = { dist = "unif", low = -0.001, high = 0.001 }
@@ -66,7 +66,6 @@ TEST_F(StoredStates, HaveTheForcesOfTheirSeries) {
             for (std::string const name : {"face_force_y_plus", "friction_force_x", "contact_force_y"})
                 EXPECT_NEAR(state["forces"][name].get<double>(), at(name), 1e-9 * force) << name;
             EXPECT_NEAR(state["forces"]["face_along_y_plus"].get<double>(), at("face_along_y_plus"), 1e-9);
-            EXPECT_NEAR(state["values"]["crank_torque"].get<double>(), at("crank_torque"), 1e-9 * 0.05 * force);
             double sum = 0;
             for (Json const& pair : state["explanation"]["pairs"]) sum += pair["normal_force"].get<double>();
             EXPECT_NEAR(sum, force, 1e-9 * force);
@@ -100,6 +99,7 @@ TEST_F(StoredStates, MayBeSectionsOfAnOrbit) {
     EXPECT_EQ(json["states"][0]["state"]["vy"], file.values("section_vy")[at]);
 }
 
+Vector cross(Vector const& a, Vector const& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 /// Columns of a continued sweep begin at the phase, where the one before has ended, and not at mechanism.start_angle.
 TEST_F(StoredStates, OfContinuedColumnsHaveTheirCrankWhereItWas) {
     ASSERT_NO_FATAL_FAILURE(run_scene("schema = 1\n[mechanism]\ncrank_speed = 10\n[contact]\nlaw = \"foundation\"\nrestitution = 0.3\n[study]\nkind = \"sweep\"\n"
@@ -110,7 +110,6 @@ TEST_F(StoredStates, OfContinuedColumnsHaveTheirCrankWhereItWas) {
     EXPECT_NEAR(force("1"), force("0"), 0.01 * std::abs(force("0")));  // it lies on its way in both
 }
 
-Vector cross(Vector const& a, Vector const& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
 /// Newton's and Euler's laws with what is said of force and torque, and what friction takes pair by pair.
 TEST_F(StoredStates, AreExplainedByForcesThatMoveTheSlider) {

@@ -94,7 +94,7 @@ inline void compare(std::string const& what, oracle::Case const& c, oracle::Resu
     // Under a bed, the small difference of loads each of which is rounded, with the penetrations.
     double const bed = 4e13 * c.inputs.slider_length * std::max(c.inputs.way_width, c.inputs.way_depth);  // [N/m], as random inputs have it
     double const rounded = c.parts.law == Law::foundation ? (1e-3 * load + 1e-18 * bed / Comparison::tolerance) * c.inputs.crank_length : 0;
-    compare.value("drive torque", r.crank_torque_with_weight, torque, std::abs(r.crank_torque) + rounded);
+    if (c.parts.mechanism == Mechanism::slider_crank) compare.value("crank torque", r.crank_torque, torque, rounded);
 }
 
 /// The forces face by face, their places and torque, and those of the pins.

@@ -82,7 +82,7 @@ void compare_report(oracle::Case const& c, std::string const& what) {
     }
     double const powers[] = {report.crank_power, report.contact.friction_power, report.contact.damping_power, report.load_power,
                              report.ground_power, report.spring_loss, report.film_loss};
-    compare(what, c, r, rates, depths, forces, powers, report.energy, report.contact.potential, report.drive_torque);
+    compare(what, c, r, rates, depths, forces, powers, report.energy, report.contact.potential, report.crank_torque);
 
     Comparison observed(what);
     observed.group("acceleration", r.acceleration.data(),
@@ -92,6 +92,7 @@ void compare_report(oracle::Case const& c, std::string const& what) {
     double const felt = std::hypot(r.acceleration[0], r.acceleration[1], r.acceleration[2]);
     observed.value("top sensor", r.acceleration_top, report.top, felt);
     observed.value("front sensor", r.acceleration_front, report.front, felt);
+    observed.value("drive torque", r.crank_torque_with_weight, report.drive_torque, std::abs(r.crank_torque));
     observed.value("x", r.x, report.x);
     observed.value("vx", r.vx, report.vx);
     auto const& w = r.rod_angular_velocity;

@@ -82,6 +82,7 @@ Report busy() {
     r.contact.friction_power = 3;
     r.contact.damping_power = 5;
     r.contact.elastic_power = 19;
+    r.crank_torque = 0.5;
     r.drive_torque = -7;
     r.position_error = 11;
     r.rod_spin = 13;
