@@ -154,7 +154,7 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
     }
     print_field("power", powers);
     if (selects(has.series, Series::crank_torque)) {
-        std::string_view const weight = has.spatial ? "without the crank's own weight" : "the crank's own weight included";
+        std::string_view const weight = has.spatial ? "by the rod: the series of that name has the crank's own weight and inertia too" : "the crank's own weight included";
         print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));
     }
     for (std::size_t i = 0; i < has.signals.size(); ++i)

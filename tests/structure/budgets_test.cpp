@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 20'119u);
+    EXPECT_LE(Layer("kernels").lines(), 20'121u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'267u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'989u);
-    EXPECT_LE(Layer("host").lines(), 31'680u);
+    EXPECT_LE(Layer("host").lines(), 31'683u);
     EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 
