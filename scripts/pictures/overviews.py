@@ -50,7 +50,7 @@ def plots(root: Path) -> str:
     result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=256)
     panels = (panel_of(plot, result, "peak_normal_force") for plot in (slideway.plot.quantiles, slideway.plot.sensitivity))
     # Beside the axes the legends would take half of so narrow a picture.
-    return picture([replace(panel, legend="lower right") for panel in panels], height=6.0)
+    return picture([replace(panel, legend="lower right") for panel in panels], height=7.4)
 
 
 def explain(root: Path) -> str:
