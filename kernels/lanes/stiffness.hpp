@@ -32,7 +32,7 @@ struct Stiffness {
 struct SlipStiffness {
     // The pair is stable up to 3.3 of the rates, of which this is the largest and another: a look counts 1, every other takes 1 off.
     static constexpr double held_up_above = 3.5;
-    static constexpr double enough = 6.0;
+    static constexpr double enough = 16.0;
     // Below that the pair could do the same steps.
     static constexpr double calm_below = 2.5;
     static constexpr double calm_steps = 6.0;
