@@ -11,6 +11,9 @@
 
 namespace slideway {
 
+struct LinkagePlan;  // kernels/linkage/linkage_plan.hpp
+inline constexpr int most_linkage_coordinates = 8, most_linkage_numbers = 96;
+
 /// Marks an input that was not given and follows from others (members/complete_inputs.hpp fills it).
 inline constexpr double follows = std::numeric_limits<double>::quiet_NaN();
 
@@ -35,6 +38,7 @@ struct Parts {
     bool rigid = false;       // contacts have no law: kernels/rigid
     LoadList loads = {};      // beside weight, contact and drive
     bool offset_slider = false;  // mass centre or pin of the slider off its hole's centre
+    LinkagePlan const* linkage = nullptr;  // of a linkage; memory that the host keeps
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 
@@ -136,14 +140,26 @@ struct Parts {
 // those of the scene's loads: load_a … load_p.
 #define SLIDEWAY_OWN_NUMBERS(row) row(a) row(b) row(c) row(d) row(e) row(f) row(g) row(h) row(i) row(j) row(k) row(l) row(m) row(n) row(o) row(p)
 
+// And those of the bodies and joints of a linkage: linkage_0 … linkage_95.
+#define SLIDEWAY_TEN_NUMBERS(row, ten) \
+    row(ten##0) row(ten##1) row(ten##2) row(ten##3) row(ten##4) row(ten##5) row(ten##6) row(ten##7) row(ten##8) row(ten##9)
+#define SLIDEWAY_LINKAGE_NUMBERS(row) \
+    row(0) row(1) row(2) row(3) row(4) row(5) row(6) row(7) row(8) row(9) SLIDEWAY_TEN_NUMBERS(row, 1) SLIDEWAY_TEN_NUMBERS(row, 2) \
+    SLIDEWAY_TEN_NUMBERS(row, 3) SLIDEWAY_TEN_NUMBERS(row, 4) SLIDEWAY_TEN_NUMBERS(row, 5) SLIDEWAY_TEN_NUMBERS(row, 6) SLIDEWAY_TEN_NUMBERS(row, 7) \
+    SLIDEWAY_TEN_NUMBERS(row, 8) row(90) row(91) row(92) row(93) row(94) row(95)
+
 struct Inputs {
 #define SLIDEWAY_MEMBER(member, key, preset, unit, rule, group, meaning) double member = preset;
     SLIDEWAY_INPUTS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
     double profile_speed = follows;  // no key: what the profile of a drive begins with, where there is one [rad/s]
     // 0 where there are fewer.
+    // Of a linkage mechanism_a … are the state that it starts in, where mechanism_a is a number.
 #define SLIDEWAY_MEMBER(letter) double law_##letter = 0, mechanism_##letter = 0, load_##letter = 0;
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_MEMBER)
+#undef SLIDEWAY_MEMBER
+#define SLIDEWAY_MEMBER(number) double linkage_##number = 0;
+    SLIDEWAY_LINKAGE_NUMBERS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
 };
 
@@ -204,6 +220,12 @@ inline constexpr double Inputs::*load_inputs[] = {
 #undef SLIDEWAY_PLACE
 };
 static_assert(sizeof(load_inputs) / sizeof(load_inputs[0]) == most_load_numbers);
+inline constexpr double Inputs::*linkage_inputs[] = {
+#define SLIDEWAY_PLACE(number) &Inputs::linkage_##number,
+    SLIDEWAY_LINKAGE_NUMBERS(SLIDEWAY_PLACE)
+#undef SLIDEWAY_PLACE
+};
+static_assert(sizeof(linkage_inputs) / sizeof(linkage_inputs[0]) == most_linkage_numbers);
 inline constexpr int most_own_numbers = sizeof(law_inputs) / sizeof(law_inputs[0]);
 
 }  // namespace slideway

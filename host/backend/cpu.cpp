@@ -21,6 +21,7 @@ namespace slideway {
     namespace isa {                                                                                     \
     SLIDEWAY_LAWS(SLIDEWAY_LAW_DECLARED)                                                                \
     SLIDEWAY_MECHANISMS(SLIDEWAY_DECLARED)                                                              \
+    extern MechanismKernels const linkage_kernels;                                                      \
     constexpr LawKernels const* laws[] = {SLIDEWAY_LAWS(SLIDEWAY_LAW_ADDRESS)};                         \
     constexpr MechanismKernels const* kernels[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_ADDRESS)};              \
     }
@@ -47,9 +48,10 @@ struct BuiltIsa {
     char const* flags;
     std::span<LawKernels const* const> laws;           // by Law
     std::span<MechanismKernels const* const> kernels;  // by Mechanism
+    MechanismKernels const* linkages;
 };
 
-#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::laws, isa::kernels},
+#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::laws, isa::kernels, &isa::linkage_kernels},
 constexpr BuiltIsa built_table[] = {SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_BUILT_ISA)};
 #undef SLIDEWAY_BUILT_ISA
 
@@ -92,6 +94,7 @@ Isa best_isa(Parts const& parts) {
     Isa best = Isa::scalar;
     bool found = false;
     for (Isa const isa : built_isas()) {
+        if (parts.linkage != nullptr) return best_isa();
         bool const has = is_supported(isa) && (law < laws || has_own_kernels(ModuleKind::law, law - laws, compiled_isa(isa))) &&
                          (mechanism < mechanisms || has_own_kernels(ModuleKind::mechanism, mechanism - mechanisms, compiled_isa(isa)));
         if (has && (!found || lanes_of(isa) > lanes_of(best))) best = isa, found = true;
@@ -126,6 +129,7 @@ MechanismKernels const& rigid_kernels(Isa isa, Mechanism mechanism, bool shadows
 
 KernelInstance find_instance(Isa isa, Parts const& parts, bool shadows) {
     BuiltIsa const& built = built_table[place_of(compiled_isa(isa))];
+    if (parts.linkage != nullptr) return {built.linkages, nullptr, parts};
     if (parts.rigid) return {&rigid_kernels(built.isa, parts.mechanism, shadows), nullptr, parts};
     auto const law_place = static_cast<std::size_t>(parts.law), place = static_cast<std::size_t>(parts.mechanism);
     KernelInstance const instance{

@@ -8,6 +8,7 @@
 #include "host/base/text.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/run/ensemble.hpp"
@@ -42,7 +43,7 @@ void print_parts(Scene const& scene) {
         for (LawInfo const& law : laws()) sort(law.name == contact_info(scene.parts).name, fmt::format("{} law", law.name));
         if (may_be_rigid(scene.parts.mechanism)) sort(scene.parts.rigid, "rigid contact");
     } else {
-        sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
+        if (!is_linkage(scene.parts.mechanism)) sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
     }
     constexpr char const* drives[] = {"drive at constant speed", "drive on a profile", "motor", "no drive"};
     if (scene.parts.drive.by != DriveBy::speed) sort(true, drives[static_cast<int>(scene.parts.drive.by)]);

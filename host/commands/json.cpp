@@ -291,7 +291,7 @@ std::string probe_json(std::string const& path, StateTable const& table, std::ve
         ProbeResult const& result = results[row];
         Json one{{"time", table.times[row]}, {"status", name_of(result.status)}};
         MechanismInfo const& has = info(table.mechanism);
-        StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
+        StateNumbers const state = start_of(table.mechanism, table.inputs[row]);
         for (int i = 0; i < has.states; ++i) one["state"][state_info(has, i).name] = number(state[static_cast<std::size_t>(i)]);
         for (auto const& [name, value] : result_columns(table, result)) one["values"][name] = number(value);
         for (auto const& [name, value] : force_columns(has, result)) one["forces"][name] = number(value);

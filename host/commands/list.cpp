@@ -8,6 +8,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/key_reference.hpp"
 #include "host/config/outputs.hpp"
@@ -63,6 +64,8 @@ void print_mechanisms() {
         print_row("  {:<30} {}{}", mechanism.name, mechanism.meaning, module_text(module_of(static_cast<Mechanism>(&mechanism - all.data()))));
         print_row("  {:<30} {}{}", "", fmt::join(states, ", "), beside.empty() ? "" : fmt::format("; series have {} too", fmt::join(beside, ", ")));
     }
+    print_row("  {:<30} {}", linkage_kind, linkage_info(any_linkage).meaning);
+    print_row("  {:<30} {}", "", "as many as these have: angles, displacements, places of what floats");
 }
 
 /// In the order of a scene's tables, each with its unit, domain and default, and who knows it where not all do.

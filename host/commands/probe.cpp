@@ -12,6 +12,7 @@
 #include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/store/output_target.hpp"
 #include "host/study/series_file.hpp"
@@ -114,7 +115,7 @@ void print_forces(MechanismInfo const& mechanism, ProbeResult const& result) {
     constexpr std::pair<Series, char const*> vectors[] = {{Series::friction_force_x, "friction"}, {Series::contact_force_x, "way's force"},
                                                           {Series::rod_force_x, "rod's force"}, {Series::crank_pin_force_x, "pin's force"}};
     for (auto const& [first, label] : vectors) {
-        if (!selects(mechanism.series, first)) continue;
+        if (!has_series(mechanism, first)) continue;
         print_field(label, fmt::format("{:.10g}, {:.10g}, {:.10g} N", value(first, 0), value(first, 1), value(first, 2)));
     }
 }
@@ -126,12 +127,30 @@ std::string state_text(Probed const& probed, std::size_t row) {
     return fmt::format("{}, member {}{} ({})", probed.scene.path, probed.stored->member, at, probed.stored->of);
 }
 
+/// Of joints with clearance, and in sum.
+void print_linkage(Linkage const& linkage, ProbeResult const& result) {
+    TextRows rows{{"joint", "penetration [m]", "normal force [N]"}};
+    for (std::size_t k = 0; k < linkage.closures.size(); ++k) {
+        auto const& closure = linkage.plan.closure[k];
+        for (int i = 0; i < closure.pairs(); ++i) {
+            std::string const place = closure.pairs() == 1 ? linkage.closures[k] : fmt::format("{} C{}", linkage.closures[k], i + 1);
+            rows.push_back({place, cell(result.penetration_y[closure.pair + i], 6), cell(result.normal_force_y[closure.pair + i], 6)});
+        }
+    }
+    print_out("\n");
+    if (rows.size() > 1) print_table([&](int) { return rows; }, 6, 1, 8);
+    print_out("\n");
+    print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
+    print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank, result.power_friction, result.power_damping));
+    if (!linkage.driven.empty()) print_field("drive torque", fmt::format("{:.10g} N m", result.crank_torque));
+}
+
 void print_listing(Probed const& probed, std::size_t row, ProbeResult const& result, Isa isa) {
     StateTable const& table = probed.table;
     print_field("state", fmt::format("{}, computed with {}", state_text(probed, row), name_of(isa)));
     print_field("status", fmt::format("{}{}", name_of(result.status), probed.stored ? " (of this state; info --members has those of members)" : ""));
     MechanismInfo const& has = info(table.mechanism);
-    StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
+    StateNumbers const state = start_of(table.mechanism, table.inputs[row]);
     TextRows rows{{"state", "unit", "value", "derivative"}};
     for (int i = 0; i < has.states; ++i) {
         SeriesInfo const& entry = state_info(has, i);
@@ -139,12 +158,13 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
     }
     print_out("\n");
     print_table([&](int) { return rows; }, 3, 2, 8);
+    if (Linkage const* const linkage = linkage_of(table.mechanism)) return print_linkage(*linkage, result);
     print_contacts(has, result);
     if (table.parts[row].rigid) {
         print_field("energy", fmt::format("{:.10g} J", result.energy));
         return print_field("forces", untold_of_rigid);
     }
-    if (selects(has.series, Series::face_force_y_plus)) print_forces(has, result);
+    if (has_series(has, Series::face_force_y_plus)) print_forces(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
     std::string powers = fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank, result.power_friction, result.power_damping);
@@ -153,7 +173,7 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
         if (table.has_loads && (value != 0 || power.value == &ProbeResult::power_load)) powers += fmt::format(", {:.10g} W {}", value, power.label);
     }
     print_field("power", powers);
-    if (selects(has.series, Series::crank_torque)) {
+    if (has_series(has, Series::crank_torque)) {
         std::string_view const weight = has.spatial ? "by the rod: the series of that name has the crank's own weight and inertia too" : "the crank's own weight included";
         print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));
     }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "host/backend/linkage_numbers.hpp"
+#include "host/config/linkages.hpp"
 #include "kernels/all_laws.hpp"
 #include "kernels/all_mechanisms.hpp"
 #include "kernels/laws/list.hpp"
@@ -100,6 +102,7 @@ std::span<std::string_view const> mechanism_kinds() {
         for (MechanismInfo const& one : mechanisms()) {
             if (one.driven_form == nullptr) kinds.emplace_back(one.name);
         }
+        kinds.push_back(linkage_kind);
         return kinds;
     });
     return names();
@@ -112,12 +115,13 @@ std::span<std::string_view const> law_names() { return contact_law_names().first
 
 std::optional<Law> find_law(std::string_view name, std::span<std::string const> search) { return find<Law>(law_infos, ModuleKind::law, name, search); }
 std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::string const> search) {
+    if (name == linkage_kind) return any_linkage;
     // Of forms whose crank turns freely a scene names the driven one, and its drive.
     if (std::ranges::any_of(mechanism_infos, [&](MechanismInfo const& info) { return info.name == name && info.driven_form != nullptr; })) return std::nullopt;
     return find<Mechanism>(mechanism_infos, ModuleKind::mechanism, name, search);
 }
 OwnModule const* module_of(Law law) { return module_behind(law_infos, ModuleKind::law, static_cast<int>(law)); }
-OwnModule const* module_of(Mechanism mechanism) { return module_behind(mechanism_infos, ModuleKind::mechanism, static_cast<int>(mechanism)); }
+OwnModule const* module_of(Mechanism mechanism) { return is_linkage(mechanism) ? nullptr : module_behind(mechanism_infos, ModuleKind::mechanism, static_cast<int>(mechanism)); }
 OwnModule const* contact_module(Parts const& parts) { return parts.rigid ? nullptr : module_of(parts.law); }
 
 void open_modules(ModuleKind kind, std::span<std::string const> search, std::function<void(std::string const& why)> const& refused) {
@@ -144,7 +148,20 @@ std::string modules_text(Parts const& parts) {
     return text;
 }
 
-MechanismInfo const& info(Mechanism mechanism) { return mechanisms()[static_cast<std::size_t>(mechanism)]; }
+MechanismInfo const& info(Mechanism mechanism) { return is_linkage(mechanism) ? linkage_info(mechanism) : mechanisms()[static_cast<std::size_t>(mechanism)]; }
+MemberSize size_of(Mechanism mechanism, Inputs const& in) {
+    if (Linkage const* const linkage = linkage_of(mechanism)) {
+        LinkageSize const size = size_of(linkage->plan, in);
+        return {size.least_play, size.most_play, size.reach, size.reach, size.mass};
+    }
+    double const y = play_y(in);
+    if (!info(mechanism).spatial) return {y, y, in.slider_length, std::max(in.slider_length, in.rod_length), in.slider_mass};
+    return {std::min(y, play_z(in)), std::max(y, play_z(in)), in.slider_length, 0.5 * in.slider_length, in.slider_mass};
+}
+StateNumbers start_of(Mechanism mechanism, Inputs const& in) {
+    Linkage const* const linkage = linkage_of(mechanism);
+    return linkage != nullptr ? assembled(linkage->plan, in).state : start_of(info(mechanism), in);
+}
 LawInfo const& info(Law law) { return laws()[static_cast<std::size_t>(law)]; }
 LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }
 

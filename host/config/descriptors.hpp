@@ -17,6 +17,7 @@
 #include "kernels/laws/law_info.hpp"
 #include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
+#include "kernels/members/start.hpp"
 #include "kernels/rigid/rigid_info.hpp"
 
 namespace slideway {
@@ -121,9 +122,25 @@ std::string why_no_period(Parts const& parts);
 /// Empty for an unknown dimension.
 std::vector<std::string> labels_of(std::string_view dimension);
 
+/// Whether a mechanism has a series of the table.
+constexpr bool has_series(MechanismInfo const& mechanism, Series series) { return mechanism.own_series.empty() && selects(mechanism.series, series); }
+/// The state in which a member starts (kernels/members/start.hpp).  @param in complete
+StateNumbers start_of(Mechanism mechanism, Inputs const& in);
+
+/// By what errors and costs of a member are measured.
+struct MemberSize {
+    double least_play, most_play;  // clearances of its joints, or preloads [m]
+    double length;                 // of the slider; of a linkage how far its bodies reach [m]
+    double lever;                  // by which the least play turns what turns most [m]
+    double mass;                   // of the slider, or of all bodies [kg]
+};
+/// @param in complete
+MemberSize size_of(Mechanism mechanism, Inputs const& in);
+
 /// Number i of a mechanism's state.
 template <class Index> constexpr SeriesInfo const& state_info(MechanismInfo const& mechanism, Index i) {
-    return series_table[static_cast<int>(mechanism.state[i])];
+    auto const entry = static_cast<std::size_t>(mechanism.state[i]);
+    return mechanism.own_series.empty() ? series_table[entry] : mechanism.own_series[entry];
 }
 
 }  // namespace slideway

@@ -41,6 +41,7 @@ Range usual_range(Setting const& key) { return key.physics != nullptr ? usual_ra
 bool is_of(Setting const& key, std::size_t mechanism) {
     MechanismInfo const& of = mechanisms()[mechanism];
     if (key.name == "contact.law") return of.spatial || may_be_rigid(static_cast<Mechanism>(mechanism));
+    if (key.name == "drive.body") return true;  // of linkages, as its meaning says
     return (key.of == nullptr || of.spatial) && (key.table() != "drive" || of.drive != DriveKind::none);
 }
 
@@ -122,7 +123,7 @@ std::string domain_text(Setting const& key) {
 std::string usual_text(Setting const& key) {
     Range const usual = usual_range(key);
     if (!std::isfinite(usual.high)) return {};
-    return usual.low > 0 ? fmt::format("{:g} to {:g}", usual.low, usual.high) : fmt::format("≤ {:g}", usual.high);
+    return usual.low > 0 ? fmt::format("{:g}–{:g}", usual.low, usual.high) : fmt::format("≤ {:g}", usual.high);
 }
 
 std::string owners_text(Setting const& key) {
@@ -204,6 +205,34 @@ std::string scene_schema(Settings keys) {
     return schema.dump(2) + "\n";
 }
 
+namespace {
+
+/// The same, with a word for the mechanisms in space and for all of them but one.
+std::string shorter(std::string text) {
+    std::string space, all;
+    for (MechanismInfo const& one : mechanisms()) {
+        if (one.driven_form != nullptr || module_of(static_cast<Mechanism>(&one - mechanisms().data())) != nullptr) continue;
+        all += fmt::format("{}{}", all.empty() ? "" : ", ", one.name);
+        if (one.spatial) space += fmt::format("{}{}", space.empty() ? "" : ", ", one.name);
+    }
+    auto const replace = [&](std::string const& names, std::string const& by) {
+        bool const begins = text.starts_with(names) && (text.size() == names.size() || text[names.size()] == ';');
+        if (begins) text.replace(0, names.size(), by);
+        return begins;
+    };
+    if (replace(space, "in space")) return text;
+    for (MechanismInfo const& one : mechanisms()) {
+        std::string const name = fmt::format(", {}", one.name);
+        auto const at = all.find(name);
+        if (at == all.npos) continue;
+        std::string others = all;
+        if (replace(others.erase(at, name.size()), fmt::format("not {}", one.name))) break;
+    }
+    return text;
+}
+
+}  // namespace
+
 std::string keys_markdown(Settings keys) {
     std::string text =
         "# Keys of a scene\n\nEvery key that a scene may have. `slideway list --markdown` writes this page, `slideway list --json` the same for programs, and "
@@ -215,16 +244,18 @@ std::string keys_markdown(Settings keys) {
         if (key.table() != table) {
             table = key.table();
             text += table.empty() ? "\n## At the top\n" : fmt::format("\n## [{}]\n", table);
-            text += "| key | type | unit | domain | usual | default | meaning | applies to |\n|---|---|---|---|---|---|---|---|\n";
+            text += "| key | unit | domain | usual | default | meaning | for |\n|---|---|---|---|---|---|---|\n";
         }
         auto const cell = [](std::string_view words) {
             std::string safe;
             for (char const c : words) safe += c == '|' ? std::string("\\|") : std::string(1, c);
             return safe;
         };
-        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", key.key(), name_of(key.type),
-                            key.unit == "1" ? "" : key.unit, cell(domain_text(key)), usual_text(key), cell(preset_text(key)),
-                            cell(key.meaning), owners_text(key));
+        // A number needs no word, and a choice is its list.
+        std::string domain = domain_text(key);
+        if (key.type != Type::number && key.type != Type::choice) domain = fmt::format("{}{}{}", name_of(key.type), domain.empty() ? "" : ", ", domain);
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", key.key(), key.unit == "1" ? "" : key.unit, cell(domain), usual_text(key),
+                            cell(preset_text(key)), cell(key.meaning), shorter(owners_text(key)));
     }
     return text;
 }

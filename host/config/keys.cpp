@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "kernels/mechanisms/list.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
@@ -146,6 +147,7 @@ std::vector<std::string_view> numeric_key_names() {
 bool counts_for(Key const& key, Mechanism mechanism) {
     MechanismInfo const& of = info(mechanism);
     if (key.group == KeyGroup::load) return true;
+    if (is_linkage(mechanism)) return counts_for_linkages(key, of.drive == DriveKind::crank);
     if (key.group == KeyGroup::mechanism) return std::ranges::find(of.own_keys, key.name, &Key::name) != of.own_keys.end();
     bool const of_contacts = key.group == KeyGroup::law || has_group(contact_groups, key.group);
     return has_group(of.keys, key.group) || (of.spatial && of_contacts);
@@ -359,6 +361,7 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
                                       fmt::arg("angle", in.start_angle), fmt::arg("stick", in.friction_stick_speed));
         return Defect{&key, find_key(rule.other), key.get(in), {std::move(why), std::string(rule.instead)}};
     }
+    if (Linkage const* const linkage = linkage_of(parts.mechanism)) return defect_of_linkage(in, *linkage);
     return defect_of_loads(in, parts.loads);
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "host/config/descriptors.hpp"
 #include "host/config/keys.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/units.hpp"
 
 namespace slideway {
@@ -32,7 +35,8 @@ Outputs outputs_of(MechanismInfo const& mechanism) {
         all.columns += static_cast<std::size_t>(quantity.columns);
     };
     std::ranges::for_each(quantity_table, add);
-    all.series.assign(std::begin(series_table), std::end(series_table));
+    if (mechanism.own_series.empty()) all.series.assign(std::begin(series_table), std::end(series_table));
+    else all.series.assign(mechanism.own_series.begin(), mechanism.own_series.end());
     all.has_quantities = mechanism.quantities;
     all.has_series = mechanism.series;
     auto const text = [&](std::string words) { return all.texts.emplace_back(std::move(words)).c_str(); };
@@ -58,7 +62,13 @@ Outputs const& outputs_of(Mechanism mechanism) {
         for (MechanismInfo const& one : mechanisms()) made.push_back(outputs_of(one));
         return made;
     });
-    return all()[static_cast<std::size_t>(mechanism)];
+    if (!is_linkage(mechanism)) return all()[static_cast<std::size_t>(mechanism)];
+    static std::mutex access;
+    static std::map<Mechanism, Outputs> of_linkages;
+    std::lock_guard const lock(access);
+    auto const [at, is_new] = of_linkages.try_emplace(mechanism);
+    if (is_new) at->second = outputs_of(info(mechanism));
+    return at->second;
 }
 
 std::string objection_to_signals(MechanismInfo const& mechanism) {

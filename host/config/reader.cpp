@@ -8,6 +8,7 @@
 
 #include "host/base/text.hpp"
 #include "host/config/document.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/units.hpp"
@@ -27,7 +28,7 @@ void check_known(Reading const& reading) {
     std::vector<std::string_view> all = keys;
     all.insert(all.end(), tables.begin(), tables.end());
     for (Node const& node : reading.root.children) {
-        if (has_named_loads(node.key)) continue;  // read_loads does it
+        if (has_named_loads(node.key) || node.key == body_table || node.key == link_table) continue;  // read_loads and read_linkage do it
         bool const is_table = contains(tables, node.key);
         if (is_table && !node.is_table()) refuse(node, {"it must be a table", fmt::format("write [{}] and its keys below", node.key)});
         for (Node const& child : node.children) {

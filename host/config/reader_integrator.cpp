@@ -8,6 +8,7 @@
 
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
+#include "kernels/linkage/linkage_plan.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
@@ -144,6 +145,8 @@ void read_integrator(Reading& reading) {
     if (settings.method == Method::verner65 && mechanism.spatial && scene.chaos.exponents == 0) max_step = std::min(longest_step, period / 200);
     // Rigid contacts are found inside a step by its ends' depths and rates, and nothing happens fast between them.
     if (scene.parts.rigid && !scene.parts.drive.turns_freely()) max_step = std::min(50 * longest_step, period / 50);
+    // Joints without clearance know no impacts.
+    if (scene.parts.linkage != nullptr && !scene.parts.linkage->has_clearance()) max_step = std::min(50 * longest_step, period / 50);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
     bool const reverses = mechanism.drive == DriveKind::carriage;
     double const of_loads = step_within_loads(scene, period);

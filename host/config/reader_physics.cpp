@@ -10,6 +10,7 @@
 #include "host/backend/backend.hpp"
 #include "host/backend/own_modules.hpp"
 #include "host/base/text.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 
@@ -99,7 +100,7 @@ std::vector<GivenKey> given_keys(Reading const& reading) {
     auto const add = [&](Node const& table, auto const& add_below) -> void {
         for (Node const& node : table.children) {
             if (Key const* const key = find_key(node.name, reading.scene)) given.push_back({key, &node});
-            else if (has_named_loads(table.key)) add_below(node, add_below);
+            else if (has_named_loads(table.key) || table.key == body_table || table.key == link_table) add_below(node, add_below);
         }
     };
     for (Node const& table : reading.root.children) add(table, add);
@@ -132,6 +133,7 @@ void read_physics(Reading& reading) {
     choose_drive(reading);
     read_mechanism(reading);
     read_drive(reading);
+    read_linkage(reading);
     read_loads(reading);
     Scene& scene = reading.scene;
     Parts& parts = scene.parts;

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "host/config/document.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
@@ -48,13 +49,17 @@ double draw(Scene const& scene, Variation const& variation, std::uint64_t member
 }
 
 Key const* find_key(std::string_view dotted_name, Scene const& scene) {
-    Key const* const own = scene.loads != nullptr ? scene.loads->find_key(dotted_name) : nullptr;
+    Key const* own = scene.loads != nullptr ? scene.loads->find_key(dotted_name) : nullptr;
+    if (Linkage const* const linkage = linkage_of(scene.parts.mechanism); linkage != nullptr && own == nullptr) own = linkage->find_key(dotted_name);
     return own != nullptr ? own : find_key(dotted_name);
 }
 
 std::vector<std::string_view> numeric_key_names(Scene const& scene) {
     std::vector<std::string_view> names = numeric_key_names();
     for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->keys().size(); ++i) names.push_back(scene.loads->keys()[i].name);
+    if (Linkage const* const linkage = linkage_of(scene.parts.mechanism)) {
+        for (Key const& key : linkage->keys) names.push_back(key.name);
+    }
     return names;
 }
 
@@ -203,6 +208,15 @@ std::string load_file(TableFile const& file, LoadTable const& table, Load const&
 /// [load.name] and its like, one after the other.
 std::string loads_text(Scene const& scene) {
     std::string text;
+    if (Linkage const* const linkage = linkage_of(scene.parts.mechanism)) {
+        for (Linkage::Row const& row : linkage->rows) {
+            text += fmt::format("\n[{}]\n{}", row.name, row.words);
+            for (std::size_t const i : row.keys) {
+                Key const& key = linkage->keys[i];
+                text += number_line(key.name.substr(row.name.size() + 1), key.get(scene.inputs), key.unit);
+            }
+        }
+    }
     if (scene.loads == nullptr) return text;
     auto const rows = scene.loads->rows();
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -251,6 +265,10 @@ std::string mechanism(Scene const& scene, Setting const&) {
     return fmt::format("\"{}\"{}", kind_of(scene.parts.mechanism), source_comment(module_of(scene.parts.mechanism)));
 }
 
+std::string drive_body(Scene const& scene, Setting const&) {
+    Linkage const* const linkage = linkage_of(scene.parts.mechanism);
+    return linkage == nullptr || linkage->driven.empty() ? std::string() : toml_string(linkage->driven);
+}
 std::string drive_table(Scene const& scene, Setting const&) {
     TableFile const& file = *find_table(scene, "drive.table");
     return file_text(file.path, scene.drive->table.rows, file.checksum);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "host/config/document.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/loads.hpp"
 
 namespace slideway {
@@ -58,6 +59,8 @@ Settings settings() {
          .preset = "speed", .what = "drive", .choices = drive_names,
          .value = {.text = at<&Scene::parts, &Parts::drive, &DrivePlan::by>.text},
          .is_said = [](Scene const& scene) { return scene.parts.drive.by != DriveBy::speed; }},
+        {.name = "drive.body", .type = Type::text, .unit = "", .meaning = "of a linkage: the body on the ground that the drive turns", .preset = "-",
+         .value = {.text = resolved::drive_body}},
         {.name = "drive.table", .type = Type::text, .unit = "", .meaning = "file of a table, beside the scene: the profile, or what a motor's torque is multiplied by",
          .preset = "-", .value = {.text = resolved::drive_table}, .is_said = has_drive_table},
         {.name = "drive.over", .type = Type::choice, .unit = "", .meaning = "the table's column that a motor's torque is read over", .preset = "-",
@@ -206,9 +209,10 @@ std::vector<Setting> with_physics(Settings rows) {
         all.push_back({.name = key.name, .type = Type::number, .unit = key.unit, .meaning = key.meaning, .preset = "-", .range = range_of(key.rule),
                        .value = {.text = resolved::number}, .physics = &key});
     }
-    std::ranges::copy(load_settings(), std::back_inserter(all));  // of loads of any name
+    std::ranges::copy(linkage_settings(), std::back_inserter(all));  // of bodies and links of any name
+    std::ranges::copy(load_settings(), std::back_inserter(all));     // of loads
     static constexpr std::string_view tables[] = {"",        "modules",  "mechanism", "drive", "joint", "slider", "material",   "way",
-                                                  "contact", "friction", "initial",   "load",  "spring", "stop", "ground_motion", "way_profile", "way_ends", "film", "integrator", "study"};
+                                                  "contact", "friction", "initial", "body", "link", "load",  "spring", "stop", "ground_motion", "way_profile", "way_ends", "film", "integrator", "study"};
     std::ranges::stable_sort(all, {}, [](Setting const& row) { return std::ranges::find(tables, row.table()) - tables; });
     return all;
 }

@@ -136,7 +136,7 @@ namespace resolved {
 
 /// Of one: "0.05" of crank_length, "{ on = \"vy\", … }" of a section; "" where the scene has none.
 using Text = std::string(Scene const& scene, Setting const& row);
-Text schema, title, folders, mechanism, drive_table, drive_column, drive_argument, drive_gives, drive_interpolation, drive_repeats, law, number, samples,
+Text schema, title, folders, mechanism, drive_body, drive_table, drive_column, drive_argument, drive_gives, drive_interpolation, drive_repeats, law, number, samples,
     quantities, phase, section, exponents, rescalings, history, parameter, values, base, member_table;
 /// Lines of a table of their own: [study.vary] …
 Text variations, correlation, limits;

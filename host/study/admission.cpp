@@ -81,8 +81,8 @@ Look look_at(Scene const& scene, Isa isa) {
             auto problem = unresolved_drive(scene.parts, drawn, schedule.timing ? schedule.timing(drawn).end : schedule.end);
             if (problem) look.unresolved = {member, *std::move(problem)};
         }
-        double const y = mean_clearance_y(drawn), z = spatial ? mean_clearance_z(drawn) : y;
-        starts.push_back({member, std::min(play(y), play(z)), std::max(-y, 0.0), std::max(-z, 0.0), 0, {}});
+        double const y = spatial ? mean_clearance_y(drawn) : 0, z = spatial ? mean_clearance_z(drawn) : 0;
+        starts.push_back({member, size_of(scene.parts.mechanism, drawn).least_play, std::max(-y, 0.0), std::max(-z, 0.0), 0, {}});
         inputs.push_back(drawn);
     }
     std::vector<ProbeResult> const results = probe(isa, scene.parts, inputs, std::vector<double>(inputs.size(), 0.0));

@@ -15,8 +15,7 @@ namespace {
 
 /// A smaller gap is crossed more often: from 0.5 to 0.05 mm the steps per second rise 1.6-fold (paper) to 6-fold (conservative).
 MemberCost predicted_cost(Mechanism mechanism) {
-    if (!info(mechanism).spatial) return [](Inputs const& inputs) { return 1 / inputs.clearance_y; };
-    return [](Inputs const& inputs) { return 1 / std::min(play_y(inputs), play_z(inputs)); };
+    return [mechanism](Inputs const& inputs) { return 1 / size_of(mechanism, inputs).least_play; };
 }
 
 BlockRequest block_request(Scene const& scene) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/backend/linkage_numbers.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/settings.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/store/shard_writer.hpp"
@@ -79,7 +81,9 @@ StepRange steps_of_member(Scene const& scene) {
     constexpr double rigid_steps = 20;
     if (scene.parts.rigid) return {least, rigid_steps * least};
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    double const rate = stiffest_rate(mechanism, info(scene.parts.law), complete_inputs(scene.inputs, mechanism));
+    Inputs const in = complete_inputs(scene.inputs, mechanism);
+    Linkage const* const linkage = linkage_of(scene.parts.mechanism);
+    double const rate = linkage != nullptr ? stiffest_rate(linkage->plan, in) : stiffest_rate(mechanism, info(scene.parts.law), in);
     return {least, least + end * rate * contact_steps(scene.parts, scene.integrator)};
 }
 

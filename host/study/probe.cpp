@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
+#include "host/config/linkages.hpp"
 #include "host/study/result_summary.hpp"
 #include "kernels/members/start.hpp"
 
@@ -73,6 +74,21 @@ std::vector<std::pair<std::string, double>> result_columns(StateTable const& tab
     if (table.has_loads) {
         for (LoadPower const& power : load_powers) columns.emplace_back(power.name, result.*power.value);
     }
+    if (Linkage const* const linkage = linkage_of(table.mechanism)) {
+        for (std::size_t k = 0; k < linkage->closures.size(); ++k) {
+            std::string const name = linkage->closures[k].substr(linkage->closures[k].find('.') + 1);
+            auto const& closure = linkage->plan.closure[k];
+            for (int i = 0; i < closure.pairs(); ++i) {
+                std::string const place = closure.pairs() == 1 ? name : fmt::format("{}_C{}", name, i + 1);
+                columns.emplace_back("pen_" + place, result.penetration_y[closure.pair + i]);
+                columns.emplace_back("fn_" + place, result.normal_force_y[closure.pair + i]);
+            }
+        }
+        columns.emplace_back("energy", result.energy);
+        columns.emplace_back("contact_potential", result.contact_potential);
+        columns.emplace_back("drive_torque", result.crank_torque);
+        return columns;
+    }
     int const places = has.spatial ? 8 : 4;
     auto const add_places = [&](std::string_view prefix, double const(&values)[8]) {
         for (int i = 0; i < places; ++i) columns.emplace_back(fmt::format("{}{}", prefix, i + 1), values[i]);
@@ -91,7 +107,7 @@ std::vector<std::pair<std::string, double>> result_columns(StateTable const& tab
         columns.emplace_back(name, is_known ? count : nan);
     columns.emplace_back("energy", result.energy);
     columns.emplace_back("contact_potential", result.contact_potential);
-    if (selects(has.series, Series::crank_torque)) columns.emplace_back("crank_torque", result.crank_torque);
+    if (has_series(has, Series::crank_torque)) columns.emplace_back("crank_torque", result.crank_torque);
     for (std::size_t i = 0; i < has.signals.size(); ++i) columns.emplace_back(has.signals[i].name, result.signals[i]);
     return columns;
 }
@@ -99,7 +115,7 @@ std::vector<std::pair<std::string, double>> result_columns(StateTable const& tab
 std::vector<std::pair<std::string, double>> force_columns(MechanismInfo const& mechanism, ProbeResult const& result) {
     std::vector<std::pair<std::string, double>> columns;
     for (int i = first_force_series; i < series_count; ++i) {
-        if (selects(mechanism.series, static_cast<Series>(i))) columns.emplace_back(series_table[i].name, result.forces[i - first_force_series]);
+        if (has_series(mechanism, static_cast<Series>(i))) columns.emplace_back(series_table[i].name, result.forces[i - first_force_series]);
     }
     return columns;
 }
@@ -116,7 +132,7 @@ void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<Pro
         line.clear();
         for (std::string const& text : table.parameter_texts[row]) line += text + ',';
         line += fmt::format("{:.17g}", table.times[row]);
-        StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
+        StateNumbers const state = start_of(table.mechanism, table.inputs[row]);
         for (int i = 0; i < has.states; ++i) line += fmt::format(",{:.17g}", state[static_cast<std::size_t>(i)]);
         for (auto const& [name, value] : result_columns(table, results[row]))
             line += fmt::format(",{:.17g}", value);
@@ -158,7 +174,7 @@ Explanation explain(StateTable const& table, std::size_t row, ProbeResult const&
         throw SceneError(fmt::format("--explain follows the forces of sliders with eight apices, and a {} has corners; leave it out", mechanism.name));
     Inputs const& in = table.inputs[row];
     Parts const& parts = table.parts[row];
-    bool const is_told = selects(mechanism.series, Series::face_force_y_plus) && !parts.rigid;
+    bool const is_told = has_series(mechanism, Series::face_force_y_plus) && !parts.rigid;
     auto const known = [&](double value) { return is_told ? value + 0.0 : nan; };  // no −0
     Explanation found{};
     for (int face = 0; face < 4; ++face) {

@@ -160,7 +160,7 @@ bool needs_part(Key const& key, double value) {
 /// Puts a state in the place of the start.  @return why it is none, if it is so
 std::optional<std::string> take_state(MechanismInfo const& mechanism, StateNumbers const& state, Inputs& inputs) {
     // Beyond it the start would be another, with the same height of the slider.
-    if (double const rod_angle = state[1]; !mechanism.spatial && !(std::abs(rod_angle) < std::numbers::pi / 2))
+    if (double const rod_angle = state[1]; !mechanism.spatial && mechanism.own_series.empty() && !(std::abs(rod_angle) < std::numbers::pi / 2))
         return fmt::format("rod_angle is {} rad (the rod is to point along the way); use a value within a right angle of 0", rod_angle);
     set_start(mechanism, state, inputs);
     return {};

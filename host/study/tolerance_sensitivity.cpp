@@ -169,15 +169,16 @@ double least_energy(Scene const& scene) { return relative_error * fall_energy(sc
 
 double natural_scale(std::string_view unit, Scene const& scene) {
     Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
-    double const clearance = std::max(play_y(in), play_z(in)), energy = fall_energy(scene), speed = std::sqrt(energy / in.slider_mass);
+    MemberSize const size = size_of(scene.parts.mechanism, in);
+    double const clearance = size.most_play, energy = fall_energy(scene), speed = std::sqrt(energy / size.mass);
     if (unit == "s") return orbit_schedule(scene).end;
     if (unit == "J" || unit == "N m") return energy;
     if (unit == "m") return clearance;
-    if (unit == "rad") return clearance / in.slider_length;
+    if (unit == "rad") return clearance / size.length;
     if (unit == "N") return energy / clearance;
     if (unit == "m/s" || unit == "m s-1") return speed;
-    if (unit == "rad/s" || unit == "rad s-1") return speed / in.slider_length;
-    if (unit == "m/s2" || unit == "m s-2") return energy / (clearance * in.slider_mass);
+    if (unit == "rad/s" || unit == "rad s-1") return speed / size.length;
+    if (unit == "m/s2" || unit == "m s-2") return energy / (clearance * size.mass);
     return 0;
 }
 

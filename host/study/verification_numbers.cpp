@@ -153,9 +153,9 @@ void follow_others(std::vector<CheckedNumber>& numbers, Verification const& v) {
 
 double fall_energy(Scene const& scene) {
     Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
-    double const clearance = std::max(play_y(in), play_z(in)),
-                 speed = clearance * std::max(1.0, std::abs(in.crank_speed));
-    return in.slider_mass * (std::abs(in.gravity) * clearance + speed * speed);
+    MemberSize const size = size_of(scene.parts.mechanism, in);
+    double const speed = size.most_play * std::max(1.0, std::abs(in.crank_speed));
+    return size.mass * (std::abs(in.gravity) * size.most_play + speed * speed);
 }
 
 std::optional<EnergyCheck> audit_energy(std::vector<double> const& residuals, Scene const& scene) {

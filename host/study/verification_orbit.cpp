@@ -71,8 +71,8 @@ Orbit orbit_of(Scene const& scene, FreshRun const& run) {
 std::vector<double> parting_scales(Scene const& scene) {
     Inputs const in = member_inputs(scene, 0);
     MechanismInfo const& has = info(scene.parts.mechanism);
-    double const clearance = std::min(play_y(in), has.spatial ? play_z(in) : play_y(in));
-    double const tilt = clearance / (has.spatial ? 0.5 * in.slider_length : std::max(in.slider_length, in.rod_length));
+    MemberSize const size = size_of(scene.parts.mechanism, in);
+    double const clearance = size.least_play, tilt = clearance / size.lever;
     std::vector<double> scales;
     for (int k = 0; k < has.states; ++k) {
         std::string_view const unit = state_info(has, k).unit;

@@ -34,6 +34,8 @@ struct ModelDefaults {
     /// Acceleration of the equilibrium that steps of the stiff method are to follow, of each component of the state that is a place; 0 of others.
     template <class Real, class Parameters>
     SLIDEWAY_FN static void bend(Real /*t*/, Real /*step*/, Real const* /*state*/, Parameters const&, Real* /*of_state*/) {}
+    /// Takes back, of members whose step has been accepted, by what it leaves constraints of the state.
+    template <class Real, class Parameters> SLIDEWAY_FN static void project(Mask<Real>, Real /*t*/, Real* /*state*/, Parameters const&) {}
     /// Of a model whose impacts have no duration and that has slips: how long ago those were slips that have just come to rest [s], 0 where none has; and an
     /// offset kept to what contacts hold.
     template <class... Contacts> SLIDEWAY_FN static double since_slip(Contacts const&...) { return 0; }

@@ -179,6 +179,7 @@ private:
         observe(accepted);
         for (int i = 0, n = pack.states(); i < n; ++i) c.y[i] = select(accepted, attempt.end[i], c.y[i]);
         c.t = select(accepted, t_end, c.t);
+        pack.model.project(accepted, c.t, c.y, pack.state.constants.parameters);
         if (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack.begin_next(accepted, attempt.end_rates, attempt.report);
         contacts_.advance(step_, accepted, next);

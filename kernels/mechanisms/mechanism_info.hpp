@@ -11,7 +11,7 @@
 
 namespace slideway {
 
-inline constexpr int most_states = 12;  // of any mechanism
+inline constexpr int most_states = 2 * most_linkage_coordinates;  // of any mechanism
 
 /// How the motion that drives a mechanism repeats itself.
 enum class DriveKind {
@@ -37,6 +37,7 @@ struct MechanismInfo {
     char const* driven_form = nullptr;  // mechanism.kind of the same mechanism without them; nullptr where they are part of every state, or of none
     bool has_exponents = true;  // members may have neighbours beside them
     bool on_cards = false;      // there are kernels for cards
+    std::span<SeriesInfo const> own_series = {};  // of a linkage: what the bits of its series are, in the place of series_table
     std::span<Key const> own_keys = {};  // of numbers of its own, on Inputs::mechanism_a … mechanism_p
     std::span<Signal const> signals = {};  // that its `put_signals(t, state, parameters, report, values)` tells, in their order
 };

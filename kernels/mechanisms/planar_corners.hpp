@@ -1,8 +1,11 @@
 #pragma once
 
 #include "kernels/joint/apex.hpp"
+#include "kernels/joint/contact_memory.hpp"
+#include "kernels/laws/damping.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/laws/friction.hpp"
+#include "kernels/laws/point.hpp"
 #include "kernels/mechanisms/planar_links.hpp"
 #include "kernels/real.hpp"
 
@@ -17,18 +20,22 @@ template <class Real> struct PlanarCorners {
     Real front, rear, base;
     Real lift, lift_slope, base_slope, tall, w3;
 
-    SLIDEWAY_FN PlanarCorners(PlanarLinks<Real> const& links, Real const* s, PlanarParameters<Real> const& p) {
-        auto tilt = sincos(s[2]);
-        w3 = s[5];
+    SLIDEWAY_FN PlanarCorners(PlanarLinks<Real> const& links, Real const* s, PlanarParameters<Real> const& p)
+        : PlanarCorners(links.y, links.vy, s[2], s[5], p) {}
+
+    /// @param y, vy of the block's centre across the walls  @param pitch, spin of the block against them  @param p has half_length, half_height, clearance
+    template <class Parameters> SLIDEWAY_FN PlanarCorners(Real y, Real vy, Real pitch, Real spin, Parameters const& p) {
+        auto tilt = sincos(pitch);
+        w3 = spin;
         lift = p.half_length * tilt.sin;
         base = fma(p.half_height, tilt.versine, p.clearance);
         lift_slope = p.half_length * tilt.cos;
         base_slope = p.half_height * tilt.sin;
         tall = p.half_height * tilt.cos;
-        front = links.y + lift;
-        rear = links.y - lift;
+        front = y + lift;
+        rear = y - lift;
         depth = {front - base, negated(front) - base, negated(rear) - base, rear - base};
-        Real const front_rate = fma(lift_slope, w3, links.vy), rear_rate = fnma(lift_slope, w3, links.vy);
+        Real const front_rate = fma(lift_slope, w3, vy), rear_rate = fnma(lift_slope, w3, vy);
         Real const base_rate = base_slope * w3;
         rate = {front_rate - base_rate, negated(front_rate) - base_rate, negated(rear_rate) - base_rate,
                 rear_rate - base_rate};
@@ -42,6 +49,26 @@ template <class Real> struct PlanarCorners {
         return {nothing, nothing, nothing};
     }
 
+    /// Elastic forces [N].
+    SLIDEWAY_FN Quad<Real> loads(PointContact<Real> const& point) const {
+        auto const of = [&](Real deep) {
+            auto const touches = deep > Real(0.0);
+            return select(touches, point_load(select(touches, deep, Real(1.0)), point), Real(0.0));
+        };
+        return {of(depth.a), of(depth.b), of(depth.c), of(depth.d)};
+    }
+    /// The same with their damping.  @param v0 δ' of the last touches, which count if `remembers`
+    SLIDEWAY_FN Quad<Real> damped(Quad<Real> const& elastic, Quad<Real> const& v0, PointContact<Real> const& point, DampingParameters<Real> const& damping,
+                                  bool remembers) const {
+        auto const of = [&](Real load, Real deep, Real rate_of, Real speed) {
+            ApexMotion<Real> const corner{deep, rate_of, max(speed, Real(least_impact_speed))};
+            Real const force = remembers ? RestitutionDamping::point_force(load, corner, point, damping) : PointDamping::point_force(load, corner, point, damping);
+            return select(deep > Real(0.0), force, Real(0.0));
+        };
+        return {of(elastic.a, depth.a, rate.a, v0.a), of(elastic.b, depth.b, rate.b, v0.b), of(elastic.c, depth.c, rate.c, v0.c),
+                of(elastic.d, depth.d, rate.d, v0.d)};
+    }
+
     /// −F ∂δ/∂q of each corner.
     SLIDEWAY_FN void add_normal(Quad<Real> const& force, PlanarPush<Real>& push) const {
         push.fy = push.fy + ((force.b - force.a) + (force.c - force.d));
@@ -49,8 +76,8 @@ template <class Real> struct PlanarCorners {
     }
 
     /// @return Σ μ F V [W].  @param vx of the slider's centre
-    SLIDEWAY_FN Real add_friction(Quad<Real> const& force, Real vx, PlanarParameters<Real> const& p,
-                                  PlanarPush<Real>& push) const {
+    template <class Parameters>
+    SLIDEWAY_FN Real add_friction(Quad<Real> const& force, Real vx, Parameters const& p, PlanarPush<Real>& push) const {
         Real power(0.0);
         auto const rub = [&](Real load, Real height) {  // height of the corner over the slider's centre
             Real const slip = fnma(height, w3, vx), speed = abs(slip);
@@ -71,7 +98,7 @@ template <class Real> struct PlanarCorners {
 /// Gap of a corner: its penetration negated [m].
 template <class Real>
 SLIDEWAY_FN Real planar_gap(Real t, Real const* s, PlanarParameters<Real> const& p, DrivePlan const& drive, Apex corner) {
-    auto const crank = sincos(planar_crank(drive, t, s, p).place);
+    auto const crank = sincos(given_crank(drive, t, s[0], s[3], p).place);
     auto const tilt = sincos(s[2]);
     Real const y = fma(p.crank_length, crank.sin, p.rod_length * sincos(s[1]).sin);
     Real const lift = p.half_length * tilt.sin, base = fma(p.half_height, tilt.versine, p.clearance);

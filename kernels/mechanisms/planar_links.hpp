@@ -13,10 +13,10 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Angular accelerations of crank and rod, and what the equation of the crank lacks without them.
 template <class Real> struct PlanarLinkMotion { Real a1, a2, r1, m12; };
 
-/// Angle, speed and given acceleration of the crank.
-template <class Real>
-SLIDEWAY_FN GivenMotion<Real> planar_crank(DrivePlan const& drive, Real t, Real const* s, PlanarParameters<Real> const& p) {
-    if (drive.turns_freely()) return {s[0], s[3], Real(0.0)};
+/// Angle, speed and given acceleration of a crank whose angle and speed are in the state.
+template <class Real, class Parameters>
+SLIDEWAY_FN GivenMotion<Real> given_crank(DrivePlan const& drive, Real t, Real angle, Real speed, Parameters const& p) {
+    if (drive.turns_freely()) return {angle, speed, Real(0.0)};
     if (drive.by != DriveBy::profile) return driven_crank(drive, t, p);
     // A state that is probed has the crank's angle at its own time.
     auto motion = profile_motion(*drive.table, t + p.start_time);
@@ -36,7 +36,7 @@ template <class Real> struct PlanarLinks {
 
     SLIDEWAY_FN PlanarLinks(Real t, Real const* s, PlanarParameters<Real> const& p, DrivePlan const& drive, LoadList const& list)
         : turns_freely(drive.turns_freely()) {
-        auto const motion = planar_crank(drive, t, s, p);
+        auto const motion = given_crank(drive, t, s[0], s[3], p);
         w1 = motion.velocity;
         w2 = s[4];
         given = motion.acceleration;

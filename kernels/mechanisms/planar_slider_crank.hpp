@@ -30,9 +30,8 @@ struct PlanarSliderCrank : PlanarBase {
         if constexpr (Full) report->contact.start(corners.depth, corners.rate);
         auto push = corners.push_of_nothing();
         if (any(corners.deepest() > Real(0.0))) {
-            Quad<Real> const elastic{load(corners.depth.a, p), load(corners.depth.b, p), load(corners.depth.c, p),
-                                     load(corners.depth.d, p)};
-            Quad<Real> force = damped(elastic, corners, memory, p, block.remembers);
+            Quad<Real> const elastic = corners.loads(p.point);
+            Quad<Real> force = corners.damped(elastic, memory.impact_speed[0], p.point, p.damping, block.remembers);
             corners.add_normal(force, push);
             if (block.friction) {
                 Real const power = corners.add_friction(force, links.vx, p, push);
@@ -56,27 +55,6 @@ struct PlanarSliderCrank : PlanarBase {
     SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, PlanarParameters<Real> const& p,
                                       Conditions<Laws> const& block, Apex corner) {
         return planar_gap(t, s, p, block.drive, corner);
-    }
-
-private:
-    template <class Real> SLIDEWAY_FN static Real load(Real depth, PlanarParameters<Real> const& p) {
-        auto const touches = depth > Real(0.0);
-        Real const safe = select(touches, depth, Real(1.0));
-        return select(touches, point_load(safe, p.point), Real(0.0));
-    }
-
-    template <class Real>
-    SLIDEWAY_FN static Quad<Real> damped(Quad<Real> const& elastic, PlanarCorners<Real> const& c, Memory<Real> const& memory,
-                                         PlanarParameters<Real> const& p, bool remembers) {
-        auto const& v0 = memory.impact_speed[0];
-        auto const of = [&](Real load, Real depth, Real rate, Real speed) {
-            ApexMotion<Real> const corner{depth, rate, max(speed, Real(least_impact_speed))};
-            Real const force = remembers ? RestitutionDamping::point_force(load, corner, p.point, p.damping)
-                                         : PointDamping::point_force(load, corner, p.point, p.damping);
-            return select(depth > Real(0.0), force, Real(0.0));
-        };
-        return {of(elastic.a, c.depth.a, c.rate.a, v0.a), of(elastic.b, c.depth.b, c.rate.b, v0.b),
-                of(elastic.c, c.depth.c, c.rate.c, v0.c), of(elastic.d, c.depth.d, c.rate.d, v0.d)};
     }
 };
 

@@ -54,6 +54,11 @@ static inline StateNumbers start_of(MechanismInfo const& mechanism, Inputs const
 
 /// Makes a member start in a state.  The planar rod is to point along the way: |θ2| < π/2.
 static inline void set_start(MechanismInfo const& mechanism, StateNumbers const& state, Inputs& in) {
+    if (!mechanism.own_series.empty()) {
+        for (int i = 0; i < mechanism.states; ++i) in.*mechanism_inputs[i] = state[i];
+        in.start_angle = state[0], in.crank_speed = state[1], in.profile_speed = follows;
+        return;
+    }
     if (mechanism.spatial) {
         for (int i = 0; i < mechanism.states; ++i) in.*start_input(mechanism.state[i]) = state[i];
         return;

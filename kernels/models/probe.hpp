@@ -86,7 +86,8 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
                 finite = finite && result.derivative[j] - result.derivative[j] == 0;
             }
             auto const& c = report.contact;
-            detail::put_contact(c, i, result);
+            if constexpr (requires { c.put(i, result); }) c.put(i, result);
+            else detail::put_contact(c, i, result);
             result.power_crank = lane(report.crank_power, i);
             result.power_friction = lane(c.friction_power, i);
             result.power_damping = lane(c.damping_power, i);

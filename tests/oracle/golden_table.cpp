@@ -253,7 +253,7 @@ Difference worst_difference(Table const& reference, Table const& got) {
     return worst;
 }
 
-Difference worst_difference(Table const& trajectories, std::size_t row, oracle::State const& got) {
+Difference worst_difference(Table const& trajectories, std::size_t row, std::span<double const> got) {
     Inputs const inputs = case_of(trajectories, row).inputs;
     double const clearance = std::max(inputs.clearance_y, inputs.clearance_z);
     double const tilt = 2 * clearance / inputs.slider_length;

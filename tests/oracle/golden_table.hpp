@@ -4,6 +4,7 @@
 
 #include "oracle.hpp"
 
+#include <span>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -60,6 +61,6 @@ Difference worst_difference(Table const& reference, Table const& got);
 
 /// The measure for trajectories.csv: the largest |difference| / (30 u + 1e-7 scale), met at <= 1.  Scales are c for
 /// y z, 2c/L_k for the angles, the row's largest entry for vy vz and for ω.
-Difference worst_difference(Table const& trajectories, std::size_t row, oracle::State const& got);
+Difference worst_difference(Table const& trajectories, std::size_t row, std::span<double const> got);
 
 }  // namespace golden

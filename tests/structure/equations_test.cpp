@@ -1,4 +1,4 @@
-// docs/reference/equations.md against docs/explanation/model.md and the code: which function computes which equation.
+// docs/evidence/equations.md against docs/explanation/model.md and the code: which function computes which equation.
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -87,19 +87,19 @@ TEST(Equations, EachHasItsRow) {
     auto const labels = labels_of(page("docs/explanation/model.md"));
     std::set<std::string> const of_page(labels.begin(), labels.end());
     std::set<std::string> of_table;
-    for (Row const& row : rows_of(page("docs/reference/equations.md"))) {
+    for (Row const& row : rows_of(page("docs/evidence/equations.md"))) {
         EXPECT_TRUE(of_page.contains(row.label)) << row.label << " is no equation of docs/explanation/model.md";
         of_table.insert(row.label);
     }
     for (std::string const& label : of_page) {
-        EXPECT_TRUE(of_table.contains(label)) << label << " has no row in docs/reference/equations.md";
+        EXPECT_TRUE(of_table.contains(label)) << label << " has no row in docs/evidence/equations.md";
     }
 }
 
 TEST(Equations, StandWhereTheTableSays) {
     std::map<std::string, std::string> code;
     for (SourceFile const& file : files_below({"kernels", "host"})) code[file.path] = code_only(file.text);
-    auto const rows = rows_of(page("docs/reference/equations.md"));
+    auto const rows = rows_of(page("docs/evidence/equations.md"));
     ASSERT_GT(rows.size(), 50u);
     for (Row const& row : rows) {
         auto const file = code.find(row.file);

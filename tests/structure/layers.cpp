@@ -33,6 +33,7 @@ constexpr std::array layers = {
     Layer{"kernels/rigid", 7},
     Layer{"kernels/lanes", 7},
     Layer{"kernels/models", 8},
+    Layer{"kernels/linkage", 8},
     Layer{"kernels/integrate.hpp", 8},
     Layer{"kernels/grid_thread.hpp", 8},
     Layer{"kernels/members", 9},
@@ -52,7 +53,7 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 16> plain_data = {
+constexpr std::array<std::string_view, 17> plain_data = {
     "kernels/key.hpp",
     "kernels/inputs.hpp",
     "kernels/status.hpp",
@@ -61,6 +62,7 @@ constexpr std::array<std::string_view, 16> plain_data = {
     "kernels/grid_task.hpp",
     "kernels/joint/apex.hpp",
     "kernels/laws/law_info.hpp",
+    "kernels/linkage/linkage_plan.hpp",
     "kernels/loads/drive_plan.hpp",
     "kernels/loads/load_list.hpp",
     "kernels/laws/list.hpp",

@@ -17,7 +17,7 @@ namespace slideway::testing {
 
 /// A scene that says nothing of its law has the paper's here, whose contacts have all keys.
 inline Scene scene_of(std::string_view text, Overrides overrides = {}) {
-    bool const of_text = text.find("law =") != text.npos || text.find("planar") != text.npos;
+    bool const of_text = text.find("law =") != text.npos || text.find("planar") != text.npos || text.find("\"linkage\"") != text.npos;
     bool const of_overrides = std::ranges::any_of(
         overrides, [](auto const& one) { return one.first == "contact.law" || one.second.find("planar") != one.second.npos; });
     if (!of_text && !of_overrides) overrides.insert(overrides.begin(), {"contact.law", "paper"});

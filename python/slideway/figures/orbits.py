@@ -61,6 +61,38 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
 
 
 @drawn
+def journal(result: xr.Dataset, link: str, member: Members = None, ax: Axes | None = None) -> Panel:
+    """Where the journal of a linkage goes in its bearing: beyond the circle, its clearance, it is pressed into it.
+
+    Args:
+        link: which one, `[link.<name>]` in the scene; its series must be in the result, as ``<name>_x`` and ``<name>_y``.
+        member: number of a member, or several; left out: all, of which eight are drawn.
+
+    Raises:
+        SlidewayError: the result has no such series, or no such journal.
+
+    >>> pin = {"first": "ground", "second": "pendulum", "kind": "journal", "clearance": 1e-4, "radius": 0.01}
+    >>> scene = {"schema": 1, "mechanism": {"kind": "linkage"}, "link": {"pin": pin}, "study": {"duration": 0.1, "samples": 101},
+    ...          "body": {"pendulum": {"mass": 1, "inertia": 0.01, "center_x": 0.1}}}
+    >>> scene["study"]["quantities"] = ["pin_x", "pin_y"]
+    >>> slideway.plot.journal(slideway.run(scene), "pin").get_ylabel()
+    'y of pin [µm]'
+    """
+    members = chosen(result, member)[:most_lines]
+    x, y = (variable(result, f"{text(link, 'the name of a link')}_{axis}").sel(member=members).values for axis in "xy")
+    gaps = {scene(result, number).get("link", {}).get(link, {}).get("clearance") for number in members}
+    if None in gaps:
+        raise SlidewayError(f"the scene's {link} is no journal with clearance")
+    factor, unit = scaled("m", np.concatenate([x.ravel(), y.ravel()]))
+    turn = np.linspace(0, 2 * np.pi, 181)
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    marks: list[Mark] = [Shape(factor * gap * circle, "clearance" if i == 0 else None, edge=grey, dash="--") for i, gap in enumerate(sorted(gaps))]
+    for number, x_of, y_of, colour in zip(members, x, y, colours, strict=False):
+        marks.append(Curve(factor * x_of, factor * y_of, f"member {number}" if len(members) > 1 else None, colour, 0.8, width=0.6))
+    return Panel(marks, Axis(f"x of {link}", unit), Axis(f"y of {link}", unit), equal=True)
+
+
+@drawn
 def poincare(result: xr.Dataset, x: str = "y", y: str = "vy", member: Members = None, ax: Axes | None = None) -> Panel:
     """Sections of the orbits: a few points are a periodic motion, a cloud is an irregular one (Fig. 17 of Qian et al. 2020).
 

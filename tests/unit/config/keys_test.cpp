@@ -35,7 +35,7 @@ TEST(Keys, EveryInputHasOneKey) {
     for (auto const member : law_inputs) law_numbers.insert(&(inputs.*member));
     EXPECT_EQ(law_numbers.size(), 16u);
     // Mechanisms of the tree have none of their own, and what a profile begins with has no key.
-    EXPECT_EQ(count + 1, sizeof(Inputs) / sizeof(double) - law_numbers.size() - std::size(mechanism_inputs) - std::size(load_inputs));
+    EXPECT_EQ(count + 1, sizeof(Inputs) / sizeof(double) - law_numbers.size() - std::size(mechanism_inputs) - std::size(load_inputs) - std::size(linkage_inputs));
     for (double const* const number : of_laws) EXPECT_TRUE(law_numbers.contains(number));
     for (double const* const number : law_numbers) EXPECT_FALSE(members.contains(number));
 }

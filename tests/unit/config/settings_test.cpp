@@ -118,7 +118,7 @@ TEST_F(ANewKeyWithRules, IsListedAndInTheSchema) {
     auto const keys = with_physics(rows);
     EXPECT_TRUE(contains(keys_json(keys), "\"integrator.trial_tolerance\""));
     EXPECT_TRUE(contains(scene_schema(keys), "\"trial_tolerance\""));
-    EXPECT_TRUE(contains(keys_markdown(keys), "| `trial_tolerance` | number | s | > 0, ≤ 1 |"));
+    EXPECT_TRUE(contains(keys_markdown(keys), "| `trial_tolerance` | s | > 0, ≤ 1 |"));
     EXPECT_EQ(described(trial), "of a trial: > 0, ≤ 1; default 0.0");
 }
 

@@ -1,0 +1,40 @@
+// Compiled under a name of its own (CMakeLists.txt here): it shares no code with the kernels.
+#include "host/backend/linkage_numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/linkage/linkage_start.hpp"
+
+namespace slideway {
+
+LinkageAssembly assembled(LinkagePlan const& plan, Inputs const& in) {
+    LinkageParameters<double> const p = linkage_parameters(plan, in);
+    LinkageStart const start(plan, p, start_speed(in));
+    LinkageAssembly assembly{static_cast<LinkageAssembly::Fault>(start.fault()), start.worst(), start.distance(), {}};
+    put_linkage_start(plan, in, assembly.state.data());
+    return assembly;
+}
+
+LinkageSize size_of(LinkagePlan const& plan, Inputs const& in) {
+    LinkageParameters<double> const p = linkage_parameters(plan, in);
+    LinkageSize size{p.play, p.play, 0, p.mass};
+    for (int i = 0; i < plan.bodies; ++i) size.reach = std::max(size.reach, p.body[i].reach);
+    for (int k = 0; k < plan.closures; ++k) size.most_play = std::max(size.most_play, p.closure[k].clearance);
+    return size;
+}
+
+double stiffest_rate(LinkagePlan const& plan, Inputs const& in) {
+    LinkageParameters<double> const p = linkage_parameters(plan, in);
+    double mass = p.mass, rate = 0;
+    for (int i = 0; i < plan.bodies; ++i) mass = std::min(mass, p.body[i].mass);
+    double const n = in.hertz_exponent, speed = plan.is_driven ? std::abs(in.crank_speed) * p.body[0].reach : 0;
+    for (int k = 0; k < plan.closures; ++k) {
+        if (!plan.closure[k].has_clearance()) continue;
+        double const stiffness = p.closure[k].contact.stiffness, depth = std::pow((n + 1) * mass * speed * speed / (2 * stiffness), 1 / (n + 1));
+        rate = std::max(rate, std::sqrt(n * stiffness * std::pow(depth, n - 1) / mass));
+    }
+    return rate;
+}
+
+}  // namespace slideway

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "kernels/laws/face.hpp"
+#include "kernels/linkage/linkage_motion.hpp"
+#include "kernels/linkage/linkage_parameters.hpp"
+#include "kernels/linkage/linkage_report.hpp"
+#include "kernels/mechanisms/planar_corners.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Where a block is between its walls, in axes along and across them that turn with their body: along X, across Y, with a tilt, and the rates of that
+/// as the walls' body sees them.
+template <class Real> struct BlockPose {
+    LinkagePoint<Real> centre, middle;  // of the block, and of the walls
+    Vec2<Real> along;                   // the walls
+    Vec2<Real> place, velocity;
+    Real tilt, spin;
+
+    SLIDEWAY_FN BlockPose(LinkageMotion<Real> const& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, int closure) {
+        auto const& of = plan.closure[closure];
+        auto const& numbers = p.closure[closure];
+        centre = motion.point(of.body[0], numbers.point[0]);
+        middle = motion.point(of.body[1], numbers.point[1]);
+        Real const turning = motion.spin(of.body[1]);
+        along = motion.direction(of.body[1], numbers.along);
+        auto const apart = centre.place - middle.place;
+        place = to_walls(apart);
+        velocity = to_walls(add(centre.velocity - middle.velocity, negated(turning), across(apart)));
+        tilt = motion.angle(of.body[0]) - (motion.angle(of.body[1]) + numbers.direction);
+        spin = motion.spin(of.body[0]) - turning;
+    }
+    SLIDEWAY_FN Vec2<Real> to_walls(Vec2<Real> const& v) const { return {dot(along, v), cross(along, v)}; }
+    SLIDEWAY_FN Vec2<Real> normal() const { return across(along); }
+};
+
+/// A block of one body between two walls of another: corners as those of the planar slider-crank, with its point law (model.md 7).
+template <class Real> struct BlockInWalls {
+    int closure;
+    BlockPose<Real> pose;
+    PlanarCorners<Real> corners;
+
+    SLIDEWAY_FN BlockInWalls(LinkageMotion<Real> const& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, int at)
+        : closure(at), pose(motion, plan, p, at), corners(pose.place.y, pose.velocity.y, pose.tilt, pose.spin, p.closure[at]) {}
+
+    /// Pushes both bodies.  @param v0 δ' of the corners' last touches, where those count  @param told what a report has of the contact; nullptr: nothing
+    SLIDEWAY_FN void push(LinkageMotion<Real>& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, Quad<Real> const& v0, bool remembers,
+                          bool has_friction, LinkageContact<Real>* told) const {
+        auto const& of = plan.closure[closure];
+        auto const& numbers = p.closure[closure];
+        auto const elastic = corners.loads(numbers.contact);
+        auto const force = corners.damped(elastic, v0, numbers.contact, p.damping, remembers);
+        auto total = corners.push_of_nothing();
+        corners.add_normal(force, total);
+        Real const loss = has_friction ? corners.add_friction(force, pose.velocity.x, p, total) : Real(0.0);
+        auto const pushed = add(total.fx * pose.along, total.fy, pose.normal());
+        // Both at the block's centre.
+        auto const at_walls = pose.middle.arm + (pose.centre.place - pose.middle.place);
+        motion.push(of.body[0], pose.centre.arm, pushed);
+        motion.twist(of.body[0], total.torque);
+        motion.push(of.body[1], at_walls, Real(-1.0) * pushed);
+        motion.twist(of.body[1], negated(total.torque));
+        if (told == nullptr) return;
+        auto const& depth = corners.depth;
+        auto const& rate = corners.rate;
+        Real const zero(0.0);
+        told->normal_force[of.pair / 4] = force;
+        told->force[closure] = sum(force);
+        auto const stored = [&](Real load, Real deep) { return load * max(deep, zero); };
+        told->potential = fma(numbers.contact.potential_share, (stored(elastic.a, depth.a) + stored(elastic.b, depth.b)) + (stored(elastic.c, depth.c) + stored(elastic.d, depth.d)),
+                              told->potential);
+        auto const power = [&](Quad<Real> const& f) { return fma(f.a, rate.a, f.b * rate.b) + fma(f.c, rate.c, f.d * rate.d); };
+        told->elastic_power = told->elastic_power + power(elastic);
+        told->damping_power = told->damping_power + power({force.a - elastic.a, force.b - elastic.b, force.c - elastic.c, force.d - elastic.d});
+        told->friction_power = told->friction_power + loss;
+        auto const a = depth.a > zero, b = depth.b > zero, c = depth.c > zero, d = depth.d > zero;
+        auto const upper = a & d, lower = b & c;
+        told->surfaces = told->surfaces + (count<Real>(upper) + count<Real>(lower));
+        told->points = told->points + ((count<Real>(a & !upper) + count<Real>(d & !upper)) + (count<Real>(b & !lower) + count<Real>(c & !lower)));
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "kernels/joint/contact_memory.hpp"
+#include "kernels/laws/damping.hpp"
+#include "kernels/laws/friction.hpp"
+#include "kernels/laws/point.hpp"
+#include "kernels/linkage/linkage_motion.hpp"
+#include "kernels/linkage/linkage_parameters.hpp"
+#include "kernels/linkage/linkage_report.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// A journal of one body in the bearing of another.  With e from the bearing's centre to the journal's
+///   δ = |e| − c,  δ' = e·e'/|e|,  F = K δⁿ and its damping, along −e/|e| on the journal, at its point that is next to the bearing;
+/// friction −μ(|v|) F v/|v| there, v = ⊥e/|e| · (e' − ω_B ⊥e) + R_A (ω_A − ω_B), so that no couple is left over and its power is −μ F |v|.
+/// Source: docs/explanation/linkages.md, after Flores, Ambrósio, Claro and Lankarani (2008).
+template <class Real> struct Journal {
+    int closure;
+    LinkagePoint<Real> pin, hole;
+    Vec2<Real> outward;  // e/|e|
+    Real distance, depth, rate;
+
+    SLIDEWAY_FN Journal(LinkageMotion<Real> const& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, int at) : closure(at) {
+        auto const& of = plan.closure[at];
+        pin = motion.point(of.body[0], p.closure[at].point[0]);
+        hole = motion.point(of.body[1], p.closure[at].point[1]);
+        auto const e = pin.place - hole.place;
+        distance = sqrt(max(dot(e, e), Real(1e-60)));
+        Real const inverse = Real(1.0) / distance;
+        outward = inverse * e;
+        depth = distance - p.closure[at].clearance;
+        rate = dot(outward, pin.velocity - hole.velocity);
+    }
+
+    /// Pushes both bodies.  @param v0 δ' of the last touch, where that counts  @param told what a report has of the contact; nullptr: nothing
+    SLIDEWAY_FN void push(LinkageMotion<Real>& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, Real v0, bool remembers, bool has_friction,
+                          LinkageContact<Real>* told) const {
+        Real const zero(0.0), one(1.0);
+        auto const& numbers = p.closure[closure];
+        auto const touches = depth > zero;
+        Real const elastic = select(touches, point_load(select(touches, depth, one), numbers.contact), zero);
+        ApexMotion<Real> const apex{depth, rate, max(v0, Real(least_impact_speed))};
+        Real force = remembers ? RestitutionDamping::point_force(elastic, apex, numbers.contact, p.damping)
+                               : PointDamping::point_force(elastic, apex, numbers.contact, p.damping);
+        force = select(touches, force, zero);
+        auto const& of = plan.closure[closure];
+        auto pushed = negated(force) * outward;
+        Real loss = zero;
+        if (has_friction) {
+            auto const aside = across(outward);
+            Real const spin = motion.spin(of.body[1]), between = motion.spin(of.body[0]) - spin;
+            Real const slip = fma(numbers.journal, between, fnma(spin, distance, dot(aside, pin.velocity - hole.velocity))), speed = abs(slip);
+            Real const drag = StickSlipFriction::coefficient(speed, p.friction) * force;
+            pushed = add(pushed, negated(drag) * (slip / max(speed, Real(1e-70))), aside);
+            loss = drag * speed;
+        }
+        // The same point of both.
+        auto const at_pin = add(pin.arm, numbers.journal, outward), at_hole = at_pin + ((pin.place - pin.arm) - (hole.place - hole.arm));
+        motion.push(of.body[0], at_pin, pushed);
+        motion.push(of.body[1], at_hole, negated(one) * pushed);
+        if (told == nullptr) return;
+        LinkageContact<Real>::at(told->normal_force, of.pair) = force;
+        told->force[closure] = force;
+        told->potential = fma(numbers.contact.potential_share * elastic, max(depth, zero), told->potential);
+        told->damping_power = fma(force - elastic, rate, told->damping_power);
+        told->elastic_power = fma(elastic, rate, told->elastic_power);
+        told->friction_power = told->friction_power + loss;
+        told->points = told->points + count<Real>(touches);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,190 @@
+#pragma once
+
+#include "kernels/linkage/block.hpp"
+#include "kernels/linkage/linkage_motion.hpp"
+#include "kernels/linkage/linkage_parameters.hpp"
+#include "kernels/linkage/linkage_plan.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// How a linkage is put together at the start: each closure's points coincide, but for the offset that a journal is given in its bearing.  Newton's
+/// method from the angles that bodies are given, with the least motion, each coordinate in the size of its body; rates likewise.
+class LinkageStart {
+public:
+    enum class Fault { none, open, redundant };
+
+    SLIDEWAY_HD LinkageStart(LinkagePlan const& plan, LinkageParameters<double> const& p, double speed) : plan_(plan), p_(p), speed_(speed) {
+        for (int i = 0; i < plan.bodies; ++i) {
+            LinkageBody const& of = plan.body[i];
+            if (of.joint != TreeJoint::floating) {
+                state_[2 * of.coordinate] = plan.is_driven && i == 0 ? p.start_angle : p.body[i].angle;
+                state_[2 * of.coordinate + 1] = plan.is_driven && i == 0 ? speed : p.body[i].speed;
+                weight_[of.coordinate] = of.joint == TreeJoint::prismatic ? 1 : 1 / p.body[i].reach;
+                continue;
+            }
+            int const angle = of.coordinate + 2;
+            state_[2 * angle] = p.body[i].angle;
+            state_[2 * angle + 1] = p.body[i].speed;
+            weight_[of.coordinate] = weight_[of.coordinate + 1] = 1;
+            weight_[angle] = 1 / p.body[i].reach;
+            hang(i);
+        }
+        for (int i = 0; i < plan.bodies; ++i) size_ = max(size_, p.body[i].reach);
+        close();
+    }
+
+    /// What is wrong, and where it is worst.
+    SLIDEWAY_HD Fault fault() const { return fault_; }
+    SLIDEWAY_HD int worst() const { return worst_; }
+    SLIDEWAY_HD double distance() const { return distance_; }
+
+    /// NaN where it cannot be put together.
+    SLIDEWAY_HD void put(double* state) const {
+        for (int i = 0; i < plan_.states(); ++i) state[i] = fault_ == Fault::none ? state_[i] : not_a_number;
+    }
+
+private:
+    static constexpr int n = LinkagePlan::most_coordinates, rows = 2 * LinkagePlan::most_closures;
+
+    SLIDEWAY_HD LinkageMotion<double> motion() const { return {plan_, p_, state_, plan_.is_driven, {state_[0], speed_, 0}}; }
+
+    /// Moves a body that floats to where its first closure with what stands before it closes.
+    SLIDEWAY_HD void hang(int body) {
+        for (int k = 0; k < plan_.closures; ++k) {
+            auto const& of = plan_.closure[k];
+            int const side = of.body[0] == body ? 0 : of.body[1] == body ? 1 : -1;
+            if (side < 0 || of.body[1 - side] >= body) continue;
+            if (plan_.closure[k].kind == ClosureKind::block) continue;
+            auto const gap = gap_of(motion(), k);
+            double const sign = side == 0 ? -1 : 1;
+            state_[2 * plan_.body[body].coordinate] += sign * gap.x;
+            state_[2 * plan_.body[body].coordinate + 2] += sign * gap.y;
+            return;
+        }
+    }
+    /// Of a pin or journal along X and Y; of a block across its walls, and by how much it is tilted, in the size of its body.
+    SLIDEWAY_HD Vec2<double> gap_of(LinkageMotion<double> const& motion, int closure) const {
+        auto const& offset = p_.closure[closure].offset;
+        if (plan_.closure[closure].kind != ClosureKind::block) return motion.apart(closure).place - offset;
+        BlockPose<double> const pose(motion, plan_, p_, closure);
+        return {pose.place.y - offset.x, size_of(closure) * ::remainder(pose.tilt - offset.y, 6.283185307179586)};
+    }
+    SLIDEWAY_HD Vec2<double> rate_of(LinkageMotion<double> const& motion, int closure) const {
+        if (plan_.closure[closure].kind != ClosureKind::block) return motion.apart(closure).velocity;
+        BlockPose<double> const pose(motion, plan_, p_, closure);
+        return {pose.velocity.y, size_of(closure) * pose.spin};
+    }
+    SLIDEWAY_HD void put_rows(LinkageMotion<double> const& motion, int closure, double* first, double* second) const {
+        auto const& of = plan_.closure[closure];
+        if (of.kind != ClosureKind::block) return motion.put_rows(closure, first, second);
+        for (int c = 0; c < plan_.coordinates; ++c) first[c] = second[c] = 0;
+        BlockPose<double> const pose(motion, plan_, p_, closure);
+        double const size = size_of(closure);
+        motion.add_row(of.body[0], pose.centre.arm, pose.normal(), first);
+        motion.add_row(of.body[1], pose.middle.arm + (pose.centre.place - pose.middle.place), -1.0 * pose.normal(), first);
+        motion.add_turn(of.body[0], size, second);
+        motion.add_turn(of.body[1], -size, second);
+    }
+    SLIDEWAY_HD double size_of(int block) const { return p_.closure[block].half_length; }
+
+    SLIDEWAY_HD void close() {
+        int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
+        double const enough = 4e-16 * size_, good = 1e-11 * size_;
+        double former = 1e300;
+        for (int turn = 0; m > 0 && turn < 200; ++turn) {
+            auto const at = motion();
+            double gap[rows];
+            distance_ = 0;
+            for (int k = 0; k < plan_.closures; ++k) {
+                auto const apart = gap_of(at, k);
+                gap[2 * k] = apart.x, gap[2 * k + 1] = apart.y;
+                double const away = ::sqrt(apart.x * apart.x + apart.y * apart.y);
+                if (!(away <= distance_)) distance_ = away, worst_ = k;
+            }
+            if (distance_ <= enough || (distance_ <= good && !(distance_ < 0.5 * former))) break;
+            former = distance_;
+            if (!factor(at)) break;
+            move(gap, 0, first);
+        }
+        if (!(distance_ <= good)) fault_ = Fault::open;
+        if (m == 0 || fault_ != Fault::none) return;
+        auto const at = motion();
+        if (!factor(at)) {
+            fault_ = Fault::redundant;
+            return;
+        }
+        double gap[rows];
+        for (int k = 0; k < plan_.closures; ++k) {
+            auto const apart = rate_of(at, k);
+            gap[2 * k] = apart.x, gap[2 * k + 1] = apart.y;
+        }
+        move(gap, 1, first);
+    }
+
+    /// J W Jᵀ, W the squared sizes of the coordinates.  @return whether it has an inverse
+    SLIDEWAY_HD bool factor(LinkageMotion<double> const& at) {
+        int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
+        for (int k = 0; k < plan_.closures; ++k) put_rows(at, k, jacobian_[2 * k], jacobian_[2 * k + 1]);
+        for (int i = 0; i < m; ++i) {
+            for (int j = 0; j <= i; ++j) {
+                double sum = 0;
+                for (int c = first; c < plan_.coordinates; ++c) sum += jacobian_[i][c] * weight_[c] * weight_[c] * jacobian_[j][c];
+                double const whole = sum;
+                for (int k = 0; k < j; ++k) sum -= root_[i][k] * root_[j][k];
+                if (i == j) {
+                    if (!(sum > 1e-12 * whole)) return worst_ = i / 2, false;
+                    root_[i][i] = ::sqrt(sum);
+                } else {
+                    root_[i][j] = sum / root_[j][j];
+                }
+            }
+        }
+        return true;
+    }
+
+    /// The least motion that closes gaps, of places (0) or rates (1).
+    SLIDEWAY_HD void move(double* gap, int of, int first) {
+        int const m = 2 * plan_.closures;
+        for (int i = 0; i < m; ++i) {
+            for (int j = 0; j < i; ++j) gap[i] -= root_[i][j] * gap[j];
+            gap[i] /= root_[i][i];
+        }
+        for (int i = m - 1; i >= 0; --i) {
+            for (int j = i + 1; j < m; ++j) gap[i] -= root_[j][i] * gap[j];
+            gap[i] /= root_[i][i];
+        }
+        // Far from where it closes, no angle by more than a third of a right one at once.
+        double step[n], largest = 0;
+        for (int c = first; c < plan_.coordinates; ++c) {
+            double sum = 0;
+            for (int i = 0; i < m; ++i) sum += jacobian_[i][c] * gap[i];
+            step[c] = weight_[c] * weight_[c] * sum;
+            if (plan_.is_angle(c)) largest = max(largest, ::fabs(step[c]));
+        }
+        double const share = of == 0 && largest > 0.5 ? 0.5 / largest : 1;
+        for (int c = first; c < plan_.coordinates; ++c) state_[2 * c + of] -= share * step[c];
+    }
+
+    LinkagePlan const& plan_;
+    LinkageParameters<double> const& p_;
+    double speed_;  // of the crank
+    double state_[LinkagePlan::most_states] = {};
+    double weight_[n] = {};
+    double jacobian_[rows][n], root_[rows][rows];
+    double size_ = 0, distance_ = 0;
+    int worst_ = 0;
+    Fault fault_ = Fault::none;
+};
+
+/// The state in which a member starts: the one that it is given, or as it goes together.
+SLIDEWAY_HD inline void put_linkage_start(LinkagePlan const& plan, Inputs const& in, double* state) {
+    if (in.mechanism_a == in.mechanism_a) {
+        for (int i = 0; i < plan.states(); ++i) state[i] = in.*mechanism_inputs[i];
+        return;
+    }
+    auto const p = linkage_parameters(plan, in);
+    LinkageStart(plan, p, start_speed(in)).put(state);
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA
