@@ -47,10 +47,10 @@ testing::RunOptions engine_options(Parts const& parts) {
     testing::RunOptions o;
     o.parts = parts;
     o.settings.rtol = o.settings.atol = 1e-6;
-    o.settings.end_time = 0.012;
+    o.settings.end_time = 0.008;
     o.series = info(parts.mechanism).series;
     o.settings.max_steps = 20'000;
-    for (int i = 0; i <= 24; ++i) o.sample_times.push_back(i * 5e-4);
+    for (int i = 0; i <= 16; ++i) o.sample_times.push_back(i * 5e-4);
     return o;
 }
 
@@ -79,7 +79,7 @@ TEST_P(EngineParity, EveryIsaWithFmaGivesTheSameBits) {
     auto const o = engine_options(GetParam().parts);
     auto const reference = testing::run(Isa::scalar, o, members);
     EXPECT_GT(reference.value(0, Quantity::contact_onsets), 0) << "the members must meet the way";
-    for (Isa const isa : testing::supported_isas()) {
+    for (Isa const isa : testing::isas_beside_scalar()) {
         auto const got = testing::run(isa, o, members);
         for (std::size_t i = 0; i < members.size(); ++i) {
             expect_same_member(reference, i, members.size(), got, i, members.size(), o.sample_times.size(),
@@ -100,8 +100,10 @@ TEST_P(EngineParity, AMemberAloneGivesTheSameBitsAsInAnyLane) {
         auto const reversed = testing::run(isa, o, backwards);
         for (std::size_t i = 0; i < members.size(); ++i) {
             auto const what = std::string(name_of(isa)) + " member " + std::to_string(i);
-            auto const alone = testing::run(isa, o, {members[i]});
-            expect_same_member(together, i, members.size(), alone, 0, 1, samples, what + " alone");
+            if (lanes_of(isa) > 1) {  // else each is alone in its lane
+                auto const alone = testing::run(isa, o, {members[i]});
+                expect_same_member(together, i, members.size(), alone, 0, 1, samples, what + " alone");
+            }
             expect_same_member(together, i, members.size(), reversed, members.size() - 1 - i, members.size(), samples,
                                what + " reversed");
         }

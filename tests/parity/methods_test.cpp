@@ -17,6 +17,8 @@ namespace {
 
 constexpr Method methods[] = {Method::automatic, Method::dopri5, Method::dop853, Method::bs32, Method::ros34pw2, Method::rk4,
                               Method::verner65};
+/// Each kind of mixed_members with and without those that fail, and lanes of eight filled six times.
+constexpr std::size_t members_each = 48;
 constexpr double tolerance = 1e-4, end_time = 0.01;
 std::vector<double> const sample_times = {0, 1e-3, 2.5e-3, 7e-3, 1e-2};
 
@@ -109,7 +111,7 @@ std::vector<std::size_t> natural_order(std::size_t count) {
 class MethodParity : public ::testing::TestWithParam<Method> {};
 
 TEST_P(MethodParity, BitsDependOnTheMemberAlone) {
-    auto const members = mixed_members(80);
+    auto const members = mixed_members(members_each);
     auto const forwards = natural_order(members.size());
     std::vector<std::size_t> const backwards(forwards.rbegin(), forwards.rend());
     auto const reference = outcomes(Isa::scalar, GetParam(), members, forwards, 1);
@@ -118,8 +120,8 @@ TEST_P(MethodParity, BitsDependOnTheMemberAlone) {
         finished += outcome.record.status == Status::finished;
         stiff += outcome.record.stiff_steps > 0;
     }
-    EXPECT_GT(finished, 30u);
-    EXPECT_LT(finished, 80u) << "some members must fail";
+    EXPECT_GT(finished, members_each * 3 / 8);
+    EXPECT_LT(finished, members_each) << "some members must fail";
     EXPECT_EQ(stiff > 0, GetParam() == Method::automatic || GetParam() == Method::ros34pw2);
     for (Isa const isa : testing::supported_isas()) {
         for (std::size_t const block : {std::size_t(1), std::size_t(7), std::size_t(512)}) {
@@ -138,12 +140,12 @@ TEST_P(MethodParity, BitsDependOnTheMemberAlone) {
 }
 
 TEST_P(MethodParity, TheOrderInWhichABlockTakesItsMembersChangesNothing) {
-    auto const members = mixed_members(80);
+    auto const members = mixed_members(members_each);
     auto const count = static_cast<std::uint32_t>(members.size());
     for (Isa const isa : all_isas()) {
         if (!is_supported(isa)) continue;
         auto const reference = outcomes_taken(isa, GetParam(), members, {});
-        // As the driver orders them, dearest first; the cheapest first; and as if shuffled: 31 and 80 have no common factor.
+        // As the driver orders them, dearest first; the cheapest first; and as if shuffled: 31 and 48 have no common factor.
         std::vector<std::uint32_t> dearest(count), shuffled(count);
         for (std::uint32_t i = 0; i < count; ++i) dearest[i] = i, shuffled[i] = 31 * i % count;
         std::ranges::stable_sort(dearest, std::greater{}, [&](auto i) { return reference[i].record.rhs_evaluations; });
@@ -175,7 +177,7 @@ TEST_P(MethodParity, ModelsOfOtherKindsHaveOneSetOfBits) {
     std::vector<double> const times = {0, 0.1, 0.77, 1};
     auto const expect_same = [&](auto const& members) {
         auto const want = testing::run(Isa::scalar, s, members, times);
-        for (Isa const isa : testing::supported_isas()) {
+        for (Isa const isa : testing::isas_beside_scalar()) {
             auto const got = testing::run(isa, s, members, times);
             for (auto const part :
                  {&testing::ModelResult::states, &testing::ModelResult::quantities, &testing::ModelResult::series}) {

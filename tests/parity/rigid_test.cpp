@@ -62,8 +62,7 @@ TEST(RigidBits, AreThoseOfScalarInEveryInstructionSet) {
     auto const members = mixed_members(48);
     for (bool const free_crank : {false, true}) {
         auto const scalar = run(Isa::scalar, free_crank, members);
-        for (Isa const isa : built_isas()) {
-            if (!is_supported(isa)) continue;
+        for (Isa const isa : testing::isas_beside_scalar()) {
             auto const other = run(isa, free_crank, members);
             for (std::size_t i = 0; i < members.size(); ++i) expect_same(scalar, i, other, i);
             EXPECT_TRUE(same_bits(scalar.series, other.series)) << name_of(isa);
@@ -112,8 +111,7 @@ void expect_own_bits_with_shadows(testing::ShadowOptions const& options, std::ve
         EXPECT_TRUE(same(of(scalar.states, i, width), of(other.states, j, width))) << i;
         EXPECT_TRUE(same(of(scalar.growth, i, growths), of(other.growth, j, growths))) << i;
     };
-    for (Isa const isa : built_isas()) {
-        if (!is_supported(isa)) continue;
+    for (Isa const isa : testing::isas_beside_scalar()) {
         auto const other = testing::run_shadowed(isa, options, members);
         for (std::size_t i = 0; i < members.size(); ++i) expect(other, i, i);
     }

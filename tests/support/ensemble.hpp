@@ -108,6 +108,13 @@ inline std::vector<Isa> supported_isas() {
     return found;
 }
 
+/// Those of them that have to have the bits of `scalar`.
+inline std::vector<Isa> isas_beside_scalar() {
+    auto found = supported_isas();
+    std::erase(found, Isa::scalar);
+    return found;
+}
+
 /// The start of golden/trajectories.csv (model.md 11): z = 0.1 c, roll 1e-4, yaw 2e-4, pitch −1e-4, at rest.
 inline Inputs golden_start(double clearance, double crank_speed, Law law = Law::paper) {
     Inputs in = with_presets({}, law);

@@ -250,6 +250,7 @@ TEST(TimeStepping, HasTheBitsOfAMemberInAnyLane) {
         auto const o = stepped(parts, 2e-5, 0.02);
         auto const all = outcomes(best_isa(), o, members);
         for (Isa const isa : testing::supported_isas()) {
+            if (isa == best_isa()) continue;
             auto const other = outcomes(isa, o, members);
             for (std::size_t i = 0; i < members.size(); ++i) EXPECT_TRUE(are_same(all[i], other[i])) << info(mechanism).name << name_of(isa) << i;
         }
