@@ -2,8 +2,8 @@
 # Sets up, builds and runs all tests but those labelled slow.  Exit code 0 only when everything passed.
 # Usage: scripts/test.sh [--cuda] [--all-isas | --isas scalar,avx2].  The GPU module and its tests are built where a GPU is found (not with
 # CI=true) or with --cuda; without a GPU for sm_90, and tested on a simulated one.  With less than four cores the instruction sets are
-# scalar and the widest of this machine, headers are not compiled one by one, and host and tests are compiled several files at once; all of that
-# apart with --all-isas: before a release.  --isas names the instruction sets: `scalar,avx2` tests what a machine without AVX-512 would.
+# scalar, at -O1, and the widest of this machine, headers are not compiled one by one, and host and tests are compiled several files at once; all
+# of that apart with --all-isas: before a release.  --isas names the instruction sets: `scalar,avx2` tests what a machine without AVX-512 would.
 # With CI=true on a machine with AVX-512, what depends on the instruction set runs once more as on one without.
 # The last line is `N passed, N failed`, with `, N skipped` when tests were skipped.
 set -euo pipefail
@@ -65,7 +65,7 @@ fi
 without_avx512=false
 [[ ${CI:-false} == true && -z $isas ]] && grep -qw avx512f /proc/cpuinfo && without_avx512=true
 isas=${isas:-native}
-options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY=$unity")
+options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY=$unity" "-DSLIDEWAY_SCALAR_O1=$unity")
 
 SECONDS=0
 # What the tests need besides, and a new Python environment, wait for packages most of the time: the program is compiled meanwhile.
