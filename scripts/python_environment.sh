@@ -33,6 +33,10 @@ print(*project["build-system"]["requires"], *project["project"]["dependencies"],
 END
     # What is imported is compiled when it is, which is a part of it.
     "${pip[@]}" install --no-compile -r "$environment/needs.txt" >&2 || stop "pip could not install what the package needs (see above)"
+    # What all tests import is compiled once, not by each of those that begin at the same time (python_tests.sh has the folder).
+    env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX="$root/build/pycache" "$environment/bin/python" -c \
+        'import matplotlib.pyplot, netCDF4, numpy.testing, pandas, pytest, scipy.stats, xarray' >&2 ||
+        stop "what the package needs cannot be imported (see above)"
     echo "$needs" >"$stamp"
 fi
 if [[ ${1:-} != --without-package ]]; then
