@@ -171,7 +171,7 @@ std::optional<Defect> defect_of_linkage(Inputs const& in, Linkage const& linkage
         double const x = of.offset[0] < 0 ? 0 : in.*linkage_inputs[of.offset[0]], y = of.offset[1] < 0 ? 0 : in.*linkage_inputs[of.offset[1]];
         if (!(clearance.get(in) < radius.get(in)))
             return Defect{&clearance, &radius, clearance.get(in), {"no journal is left in the bearing", "use a value below that of radius"}};
-        if (std::hypot(x, y) > 1.5 * clearance.get(in))
+        if (std::hypot(x, y) > 1.05 * clearance.get(in))
             return Defect{key_at(of.offset[0] >= 0 ? of.offset[0] : of.offset[1]), nullptr, x, {"the journal starts within its bearing", "use offsets within the clearance"}};
     }
     using enum LinkageAssembly::Fault;

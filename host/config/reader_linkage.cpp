@@ -47,6 +47,11 @@ public:
         plant();
         name_states();
         Scene& scene = reading_.scene;
+        if (!linkage_->plan.has_clearance()) {
+            for (std::string_view const idle : {"friction", "contact"}) {
+                if (Node const* const node = reading_.given(idle)) reading_.warn(fmt::format("{}: [{}] has no effect, for no joint has clearance", node->where, idle));
+            }
+        }
         Mechanism const mechanism = known_linkage(std::move(linkage_));
         scene.parts.mechanism = mechanism;
         scene.parts.linkage = &linkage_of(mechanism)->plan;
@@ -332,6 +337,8 @@ private:
         auto const put = [&](std::size_t at, std::string const& name, char const* unit, std::string const& meaning, Node const& node) {
             linkage.series[at] = {keep(name), unit, keep(meaning)};
             info.series |= Selection{1} << at;
+            bool const is_quantity = std::ranges::any_of(quantity_table, [&](QuantityInfo const& one) { return name == one.name; });
+            if (is_quantity) refuse_that(node, "has the column of a quantity", {fmt::format("results have a {} already", name), "rename it"});
             if (!names.insert(linkage.series[at].name).second) refuse_that(node, "shares a column with another", {fmt::format("results would have two {}", name), "rename it"});
         };
         for (GivenBody const& body : bodies_) {

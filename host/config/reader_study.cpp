@@ -149,13 +149,18 @@ void read_quantities(Reading& reading, Node const& list) {
     Outputs const& outputs = outputs_of(scene.parts.mechanism);
     std::vector<std::string_view> names;
     for (QuantityInfo const& quantity : outputs.quantities) names.emplace_back(quantity.name);
-    for (SeriesInfo const& series : outputs.series) names.emplace_back(series.name);
+    std::vector<std::size_t> places;  // of series; those of a linkage have gaps between them
+    for (std::size_t i = 0; i < outputs.series.size(); ++i) {
+        if (outputs.series[i].name[0] == '\0') continue;
+        names.emplace_back(outputs.series[i].name);
+        places.push_back(i);
+    }
     for (Node const& given : list.children) {
         Node node = given;
         node.text = reading.named_now(given, given.text);
         std::size_t const index = read_choice(node, "quantity", names);
         bool const is_series = index >= outputs.quantities.size();
-        std::size_t const place = is_series ? index - outputs.quantities.size() : index;
+        std::size_t const place = is_series ? places[index - outputs.quantities.size()] : index;
         if (((is_series ? outputs.has_series : outputs.has_quantities) >> place & 1u) == 0) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
         if (is_series) {
             read_series(node, place, scene);

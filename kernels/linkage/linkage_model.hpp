@@ -54,9 +54,9 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
             scale[2 * c + 1] = scale[2 * c] * p.rate_scale;
         }
     }
+    /// Between the energy of a motion within the clearance and that of the bodies: most of that is of motions as large as they [J].
     template <class Real> SLIDEWAY_FN static Real energy_scale(LinkageParameters<Real> const& p) {
-        Real const speed = touch_speed(p);
-        return p.mass * speed * speed;
+        return p.mass * ((p.play * p.reach) * (p.rate_scale * p.rate_scale));
     }
     template <class Real> SLIDEWAY_FN static Real touch_speed(LinkageParameters<Real> const& p) { return p.play * p.rate_scale; }
     template <class Real> SLIDEWAY_FN static Real touch_scale(LinkageParameters<Real> const& p) { return p.play; }

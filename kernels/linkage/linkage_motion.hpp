@@ -46,17 +46,24 @@ public:
             for (int c = 0; c < plan_.coordinates; ++c) response_[i][c] = jacobian_[i][c];
             solve(response_[i]);
         }
+        Real largest(0.0);
         for (int i = 0; i < m; ++i) {
             for (int j = 0; j <= i; ++j) {
                 Real sum(0.0);
                 for (int c = first_; c < plan_.coordinates; ++c) sum = fma(jacobian_[i][c], response_[j][c], sum);
-                Real const whole = sum;
+                root_[i][j] = sum;
+            }
+            largest = max(largest, root_[i][i]);
+        }
+        for (int i = 0; i < m; ++i) {
+            for (int j = 0; j <= i; ++j) {
+                Real sum = root_[i][j];
                 for (int k = 0; k < j; ++k) sum = fnma(root_[i][k], root_[j][k], sum);
                 if (i > j) {
                     root_[i][j] = sum * root_[j][j];
                 } else {
                     // Accelerations grow with the third power of how near a dead centre is: nothing is right beside it.
-                    singular = singular | !(sum > Real(1e-8) * whole);
+                    singular = singular | !(sum > Real(1e-8) * largest);
                     root_[i][i] = Real(1.0) / sqrt(sum);
                 }
             }
@@ -121,7 +128,7 @@ private:
             auto const inertia = add(held, mass, b.acceleration);
             h_[c] = h_[c] + dot(b.along, inertia);
             auto const lifted = mass * b.along;
-            Real const twist = cross(b.hung_moment, lifted);
+            Real const twist = cross(b.hung_moment, b.along);
             put_row(of.parent, lifted, twist + cross(b.from_below, lifted), m_[c]);
             m_[c][c] = mass;
             if (of.parent == LinkageBody::ground) return;

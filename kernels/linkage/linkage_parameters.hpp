@@ -48,7 +48,8 @@ template <class Real> struct LinkageParameters {
     DriveNumbers<Real> motor;
     DampingParameters<Real> damping;
     FrictionParameters<Real> friction;
-    Real play;        // the least clearance; where there is none, a ten-thousandth of the largest body [m]
+    Real play;        // the least clearance; where there is none, as `reach` [m]
+    Real reach;       // of the largest body [m]
     Real mass;        // of all bodies [kg]
     Real flywheel;    // inertia of what the drive turns beside its body [kg m²]
     Real rate_scale;  // |ω|, at least 1 [1/s]
@@ -72,9 +73,7 @@ struct LinkageNumbers {
 };
 
 SLIDEWAY_HD inline Vec2<double> turned(Vec2<double> v, double angle) {
-    if (angle == 0) return v;
-    auto const by = sincos(angle);
-    return {by.cos * v.x - by.sin * v.y, by.sin * v.x + by.cos * v.y};
+    return angle == 0 ? v : slideway::turned(sincos(angle), v);
 }
 SLIDEWAY_HD inline double length(Vec2<double> v) { return ::sqrt(v.x * v.x + v.y * v.y); }
 
@@ -167,7 +166,8 @@ SLIDEWAY_HD inline LinkageParameters<double> linkage_parameters(LinkagePlan cons
     for (int i = 0; i < plan.bodies; ++i) {
         if (p.body[i].reach == 0) p.body[i].reach = largest > 0 ? largest : 1;
     }
-    if (p.play == 1e300) p.play = 1e-4 * (largest > 0 ? largest : 1);
+    p.reach = largest > 0 ? largest : 1;
+    if (p.play == 1e300) p.play = p.reach;
     auto const slope = sincos(in.inclination);
     p.gravity = {-in.gravity * slope.sin, -in.gravity * slope.cos};
     p.crank_speed = in.crank_speed;

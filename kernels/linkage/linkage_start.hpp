@@ -28,7 +28,12 @@ public:
             state_[2 * angle + 1] = p.body[i].speed;
             weight_[of.coordinate] = weight_[of.coordinate + 1] = 1;
             weight_[angle] = 1 / p.body[i].reach;
-            hang(i);
+            waits_[i] = true;
+        }
+        for (int round = 0; round < plan.bodies; ++round) {
+            for (int i = 0; i < plan.bodies; ++i) {
+                if (waits_[i] && hang(i)) waits_[i] = false;
+            }
         }
         for (int i = 0; i < plan.bodies; ++i) size_ = max(size_, p.body[i].reach);
         close();
@@ -49,19 +54,28 @@ private:
 
     SLIDEWAY_HD LinkageMotion<double> motion() const { return {plan_, p_, state_, plan_.is_driven, {state_[0], speed_, 0}}; }
 
-    /// Moves a body that floats to where its first closure with what stands before it closes.
-    SLIDEWAY_HD void hang(int body) {
+    /// Moves a body that floats to where its first pin or journal on what stands already closes, with the rate of that.
+    SLIDEWAY_HD bool hang(int body) {
         for (int k = 0; k < plan_.closures; ++k) {
             auto const& of = plan_.closure[k];
             int const side = of.body[0] == body ? 0 : of.body[1] == body ? 1 : -1;
-            if (side < 0 || of.body[1 - side] >= body) continue;
-            if (plan_.closure[k].kind == ClosureKind::block) continue;
-            auto const gap = gap_of(motion(), k);
+            if (side < 0 || of.kind == ClosureKind::block) continue;
+            int const other = of.body[1 - side];
+            if (other != LinkageBody::ground && waits_[root_of(other)]) continue;
+            auto const at = motion();
+            auto const gap = gap_of(at, k), rate = rate_of(at, k);
             double const sign = side == 0 ? -1 : 1;
-            state_[2 * plan_.body[body].coordinate] += sign * gap.x;
-            state_[2 * plan_.body[body].coordinate + 2] += sign * gap.y;
-            return;
+            double* const state = state_ + 2 * plan_.body[body].coordinate;
+            state[0] += sign * gap.x, state[1] += sign * rate.x;
+            state[2] += sign * gap.y, state[3] += sign * rate.y;
+            return true;
         }
+        return false;
+    }
+    /// The body of the tree that stands on the ground below another one, or floats.
+    SLIDEWAY_HD int root_of(int body) const {
+        while (plan_.body[body].parent != LinkageBody::ground) body = plan_.body[body].parent;
+        return body;
     }
     /// Of a pin or journal along X and Y; of a block across its walls, and by how much it is tilted, in the size of its body.
     SLIDEWAY_HD Vec2<double> gap_of(LinkageMotion<double> const& motion, int closure) const {
@@ -126,14 +140,21 @@ private:
     SLIDEWAY_HD bool factor(LinkageMotion<double> const& at) {
         int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
         for (int k = 0; k < plan_.closures; ++k) put_rows(at, k, jacobian_[2 * k], jacobian_[2 * k + 1]);
+        double largest = 0;
         for (int i = 0; i < m; ++i) {
             for (int j = 0; j <= i; ++j) {
                 double sum = 0;
                 for (int c = first; c < plan_.coordinates; ++c) sum += jacobian_[i][c] * weight_[c] * weight_[c] * jacobian_[j][c];
-                double const whole = sum;
+                root_[i][j] = sum;
+            }
+            largest = max(largest, root_[i][i]);
+        }
+        for (int i = 0; i < m; ++i) {
+            for (int j = 0; j <= i; ++j) {
+                double sum = root_[i][j];
                 for (int k = 0; k < j; ++k) sum -= root_[i][k] * root_[j][k];
                 if (i == j) {
-                    if (!(sum > 1e-12 * whole)) return worst_ = i / 2, false;
+                    if (!(sum > 1e-10 * largest)) return worst_ = i / 2, false;
                     root_[i][i] = ::sqrt(sum);
                 } else {
                     root_[i][j] = sum / root_[j][j];
@@ -171,6 +192,7 @@ private:
     double speed_;  // of the crank
     double state_[LinkagePlan::most_states] = {};
     double weight_[n] = {};
+    bool waits_[LinkagePlan::most_bodies] = {};  // bodies that float and have no place yet
     double jacobian_[rows][n], root_[rows][rows];
     double size_ = 0, distance_ = 0;
     int worst_ = 0;

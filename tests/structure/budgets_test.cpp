@@ -38,11 +38,11 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 21'469u);
-    EXPECT_LE(Layer("kernels/linkage").lines(), 1'287u);
+    EXPECT_LE(Layer("kernels").lines(), 21'510u);
+    EXPECT_LE(Layer("kernels/linkage").lines(), 1'330u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'267u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'992u);
-    EXPECT_LE(Layer("host").lines(), 32'640u);
+    EXPECT_LE(Layer("host").lines(), 32'660u);
     EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 

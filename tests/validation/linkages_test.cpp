@@ -141,6 +141,29 @@ TEST(Linkages, OfPendulumsKeepTheirEnergyTheBetterTheTighterTheTolerance) {
     EXPECT_LT(last, 1e-8);
 }
 
+/// A chain of two on journals, listed in either order: each body starts at the angle and with the rate that it is given.
+TEST(Linkages, StartAsTheirBodiesAreGivenWhereThatCloses) {
+    std::string const upper = "[body.upper]\nmass = 1\ninertia = 0.02\ncenter_x = 0.25\nangle = -1.2\nspeed = 5\n", lower = "[body.lower]\nmass = 0.7\ninertia = 0.01\ncenter_x = 0.2\nangle = -0.3\nspeed = -2\n";
+    std::string const links = "[link.top]\nkind = \"journal\"\nfirst = \"upper\"\nsecond = \"ground\"\nclearance = 1e-4\nradius = 0.01\n"
+                              "[link.elbow]\nkind = \"journal\"\nfirst = \"upper\"\nfirst_x = 0.5\nsecond = \"lower\"\nclearance = 1e-4\nradius = 0.01\n[study]\nduration = 1e-3\nsamples = 2\n";
+    for (std::string const& bodies : {upper + lower, lower + upper}) {
+        Result const result = Ensemble::parse("schema = 1\n[mechanism]\nkind = \"linkage\"\n" + bodies + links).run();
+        EXPECT_NEAR(column(result, "upper_angle")[0], -1.2, 1e-12);
+        EXPECT_NEAR(column(result, "lower_angle")[0], -0.3, 1e-12);
+        EXPECT_NEAR(column(result, "upper_angular_velocity")[0], 5, 1e-11);
+        EXPECT_NEAR(column(result, "lower_angular_velocity")[0], -2, 1e-11);
+    }
+}
+
+/// Steps of motions without contact are judged by their own size: no pendulum is accused of making energy.
+TEST(Linkages, OfPendulumsAreNotAccused) {
+    for (char const* const pin : {"kind = \"revolute\"\n", "kind = \"journal\"\nclearance = 1e-4\nradius = 0.01\n"}) {
+        Result const result = Ensemble::parse(std::string("schema = 1\n[mechanism]\nkind = \"linkage\"\n[body.rod]\nmass = 1\ninertia = 0.02\ncenter_x = 0.25\nangle = 0.3\n[link.top]\nfirst = \"rod\"\nsecond = \"ground\"\n") + pin +
+                                             "[contact]\nrestitution = 0.8\n[study]\nduration = 5\nquantities = [\"energy_change\"]\n").run();
+        EXPECT_EQ(column(result, "status")[0], 0) << pin;
+    }
+}
+
 TEST(Linkages, HaveOneHashOnEveryInstructionSetAndNumberOfThreads) {
     Ensemble const ensemble = Ensemble::read(SLIDEWAY_SCENES "/four_bar_journals.toml", {{"study.revolutions", "0.5"}, {"study.members", "13"}, {"study.verify", "0"}});
     std::string const hash = ensemble.run({.threads = 2}).payload_hash();

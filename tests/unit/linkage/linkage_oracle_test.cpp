@@ -310,6 +310,9 @@ std::vector<std::pair<std::string, Description>> linkages() {
     all.push_back({"block_on_turning_arm", {{{"crank", 0.4, 3e-4, 0.02, 0.001}, arm, {"stone", 0.1, 1e-4, 0.002, 0.001, 0.45}},
                                             {shaft, {"revolute", ground, 1, -0.15, -0.02, 0, 0, {}}, {"revolute", 0, 2, 0.06, 0, 0, 0, {}},
                                              {"block", 2, 1, 0, 0, 0.01, 0.002, {{"clearance", 2e-4}, {"length", 0.03}, {"height", 0.02}, {"stiffness", 3e9}, {"direction", 0.05}}}}, true, true}});
+    all.push_back({"block_on_a_turning_arm_off_its_line",
+                   {{{"arm", 0.5, 2e-3, 0.1, 0.005}, {"weight", 2, 3e-3, 0.01, 0.05}}, {{"revolute", ground, 0, 0, 0, 0, 0, {}}, {"prismatic", 0, 1, 0.02, 0.01, 0, 0, {{"position", 0.2}, {"direction", 0.3}, {"turn", 0.4}}}},
+                    true, false}});
     Description six{{{"crank", 0.3, 2e-4, 0.03, 0.001}, {"b2", 0.5, 1.5e-3, 0.1, 0.01, 0.5}, {"b3", 0.45, 1.1e-3, 0.07, -0.005, 1.5}, {"b4", 0.35, 1e-3, 0.09, 0, 0.2}, {"b5", 0.4, 9e-4, 0.06, 0.004, 1.4}},
                     {shaft, {"revolute", 0, 1, 0.06, 0, 0, 0, {}}, {"revolute", ground, 2, 0.22, 0, 0, 0, {}}, {"revolute", 2, 3, 0.12, -0.05, 0, 0, {}},
                      {"revolute", ground, 4, 0.45, 0.02, 0, 0, {}}, {"revolute", 1, 2, 0.2, 0, 0.14, 0, {}}, {"revolute", 3, 4, 0.2, 0, 0.15, 0, {}}}, true, false};
@@ -367,7 +370,7 @@ TEST_P(LinkagesAgainstOracle, AccelerateAlike) {
     if (has_clearance) EXPECT_GT(pressed, 50) << name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Linkages, LinkagesAgainstOracle, ::testing::Range(0, 10));
+INSTANTIATE_TEST_SUITE_P(Linkages, LinkagesAgainstOracle, ::testing::Range(0, 11));
 
 }  // namespace
 }  // namespace slideway::linkage_oracle_test
