@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <fmt/format.h>
 
 namespace slideway {
@@ -47,7 +47,7 @@ std::vector<double> spline_slopes(Points const& points) {
     }
     Eigen::SparseMatrix<double> matrix(right.size(), right.size());
     matrix.setFromTriplets(entries.begin(), entries.end());  // sums entries of one place
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;  // the matrix is symmetric, and its diagonal outweighs its rows
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
     bool const finite = right.allFinite() && std::ranges::all_of(entries, [](auto const& entry) { return std::isfinite(entry.value()); });
     if (finite) factors.compute(matrix);
     if (!finite || factors.info() != Eigen::Success) return std::vector<double>(count, std::nan(""));

@@ -79,7 +79,7 @@ def motor(program, tmp_path, monkeypatch):
     modules.mkdir(parents=True, exist_ok=True)
     with (modules / "lock").open("w") as alone:
         fcntl.flock(alone, fcntl.LOCK_EX)
-        slideway.compile(Path(__file__).parents[2] / "tests/extending/motor_yoke.hpp", isa="scalar", program=program)
+        slideway.compile(Path(__file__).parents[2] / "tests/extending/motor_yoke.hpp", isa="auto", program=program)
 
 
 @pytest.mark.usefixtures("motor")

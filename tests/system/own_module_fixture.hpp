@@ -35,9 +35,9 @@ protected:
     }
 
     /// The motor of docs/how_to/extending.md in the folder `own`.  It takes long to compile: the first test that asks does it for all of a call of
-    /// scripts/test.sh, or for this version of the kernels; example.sh and Python's test_modules.py among them.  They all ask for the instruction
-    /// set that is compiled soonest; the widest is compiled for one test alone, which is slow.
-    void provide_motor(std::vector<std::string> const& isas = {"scalar"}) const {
+    /// scripts/test.sh, or for this version of the kernels; example.sh and Python's test_modules.py among them.  They all ask for the widest
+    /// instruction set; another is compiled for one test alone.
+    void provide_motor(std::vector<std::string> const& isas = {best()}) const {
         namespace fs = std::filesystem;
         fs::path const cache = fs::path(SLIDEWAY_TEST_RESULTS) / "cache", common = cache / "slideway/modules";
         fs::create_directories(common);
