@@ -410,7 +410,6 @@ void read_linkage(Reading& reading) {
     for (std::string_view const table : other) {
         if (Node const* const node = reading.given(table)) throw SceneError(fmt::format("{}: [{}] does not act on linkages yet; remove it", node->where, table));
     }
-    if (reading.scene.parts.rigid) refuse(*reading.given("contact.law"), {"journals give way", "remove it"});
     LinkageReader(reading).read();
 }
 

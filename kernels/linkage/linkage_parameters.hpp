@@ -85,8 +85,8 @@ SLIDEWAY_HD inline LinkageParameters<double> linkage_parameters(LinkagePlan cons
     LinkageParameters<double> p{};
     detail::LinkageNumbers const number{in};
     // Where the axes of a body begin for the kernels, and how far its own are turned: a prismatic joint's are those of the body below.
-    Vec2<double> origin[LinkagePlan::most_bodies];
-    double turn[LinkagePlan::most_bodies];
+    Vec2<double> origin[LinkagePlan::most_bodies] = {};
+    double turn[LinkagePlan::most_bodies] = {};
     auto const local = [&](int body, Vec2<double> point) {
         if (body == LinkageBody::ground) return point;
         return turned({point.x - origin[body].x, point.y - origin[body].y}, turn[body]);

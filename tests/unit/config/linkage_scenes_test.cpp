@@ -38,7 +38,7 @@ TEST(LinkageScenes, NameWhatIsWrongWithThem) {
         {crank() + "[body.rod]\ninertia = 1e-4\n" + pin + study, "body.rod.mass is missing"},
         {crank() + "[body.rod]\nmass = 0\ninertia = 1e-4\n" + pin + study, "body.rod.mass"},
         {crank() + "[body.rod]\nmass = 0.1\n" + pin + study, "body.rod.inertia is missing"},
-        {crank() + "[body.rod]\nmass = 0.1\nmas = 2\n" + pin + study, "did you mean mass?"},
+        {crank() + "[body.rod]\nmass = 0.1\nmas = 2\n" + pin + study, "did you mean \"mass\"?"},
         {whole("[load.push]\nforce_x = 1\n"), "[load] does not act on linkages yet"},
         {crank() + rod + slider + pin + wrist("kind = \"journal\"\nradius = 0.01\n") + way + study, "link.wrist.clearance is missing"},
         {crank() + rod + slider + pin + wrist("kind = \"journal\"\nclearance = 0.02\nradius = 0.01\n") + way + study, "no journal is left in the bearing"},
@@ -49,7 +49,7 @@ TEST(LinkageScenes, NameWhatIsWrongWithThem) {
         // Two pins hold what one does.
         {whole("[link.again]\nkind = \"revolute\"\nfirst = \"crank\"\nfirst_x = 0.05\nsecond = \"rod\"\n"), "holds what other joints hold already"},
         {"schema = 1\n[mechanism]\nkind = \"carriage\"\n" + rod + study, "[body] is of kind = \"linkage\""},
-        {whole() + "[contact]\nlaw = \"rigid\"\n", "journals give way"},
+        {whole() + "[contact]\nlaw = \"rigid\"\n", "the contacts of a linkage give way"},
         {whole() + "[joint]\nclearance = 1e-4\n", "has no meaning for kind = \"linkage\""},
     };
     for (auto const& [text, part] : cases) EXPECT_TRUE(contains(error_of(text), part)) << part << "\n" << error_of(text);

@@ -124,6 +124,7 @@ TEST(RandomStates, VaryEveryParameter) {
     for (int i = 2; i < slideway::most_own_numbers; ++i) other.insert(place_of(where.*slideway::law_inputs[i]));
     for (auto const own : slideway::mechanism_inputs) other.insert(place_of(where.*own));
     for (auto const load : slideway::load_inputs) other.insert(place_of(where.*load));  // LoadsAgainstOracle draws them
+    for (auto const number : slideway::linkage_inputs) other.insert(place_of(where.*number));  // LinkagesAgainstOracle has them
     // The start of a run: a case carries its own state.
     for (double const* start : {&where.y, &where.z, &where.vy, &where.vz, &where.roll, &where.yaw, &where.pitch,
                                 &where.wx, &where.wy, &where.wz, &where.x, &where.vx})
