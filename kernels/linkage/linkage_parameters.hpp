@@ -64,11 +64,23 @@ SLIDEWAY_FN double sphere_stiffness(Inputs const& in, double journal, double bea
 
 namespace detail {
 
+// Where a member's numbers are, of this instruction set: units of another share no table with it.
+inline constexpr double Inputs::*linkage_places[] = {
+#define SLIDEWAY_PLACE(number) &Inputs::linkage_##number,
+    SLIDEWAY_LINKAGE_NUMBERS(SLIDEWAY_PLACE)
+#undef SLIDEWAY_PLACE
+};
+inline constexpr double Inputs::*start_places[] = {
+#define SLIDEWAY_PLACE(letter) &Inputs::mechanism_##letter,
+    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
+#undef SLIDEWAY_PLACE
+};
+
 /// What a plan finds among the inputs of a member.
 struct LinkageNumbers {
     Inputs const& in;
 
-    SLIDEWAY_HD double operator()(int place) const { return place == LinkageBody::none ? 0.0 : in.*linkage_inputs[place]; }
+    SLIDEWAY_HD double operator()(int place) const { return place == LinkageBody::none ? 0.0 : in.*linkage_places[place]; }
     SLIDEWAY_HD Vec2<double> operator()(int const (&places)[2]) const { return {(*this)(places[0]), (*this)(places[1])}; }
 };
 

@@ -202,7 +202,7 @@ private:
 /// The state in which a member starts: the one that it is given, or as it goes together.
 SLIDEWAY_HD inline void put_linkage_start(LinkagePlan const& plan, Inputs const& in, double* state) {
     if (in.mechanism_a == in.mechanism_a) {
-        for (int i = 0; i < plan.states(); ++i) state[i] = in.*mechanism_inputs[i];
+        for (int i = 0; i < plan.states(); ++i) state[i] = in.*detail::start_places[i];
         return;
     }
     auto const p = linkage_parameters(plan, in);
