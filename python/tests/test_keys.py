@@ -38,7 +38,7 @@ def test_keys_are_found_by_a_part_of_their_name():
     found = slideway.keys("clearance")
     faces = [f"joint.clearance_{axis}_{side}" for axis in "yz" for side in ("plus", "minus")]
     assert list(found) == ["joint.clearance_y", "joint.clearance_z", *faces, "joint.clearance", "link.<name>.clearance"]
-    assert str(found).count("\n") == 6
+    assert str(found).count("\n") == 7
     assert slideway.keys("no such part") == {}
 
 
