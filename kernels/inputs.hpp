@@ -203,24 +203,25 @@ inline constexpr Key input_keys[] = {
 #undef SLIDEWAY_KEY
 };
 
-/// Where a law and a mechanism may have their own.
-inline constexpr double Inputs::*law_inputs[] = {
+/// Where a law and a mechanism may have their own, a scene its loads, and a linkage its bodies and joints.  Each unit has its own copy: indexed at run
+/// time, one copy for all would be of any instruction set's unit.
+static constexpr double Inputs::*law_inputs[] = {
 #define SLIDEWAY_PLACE(letter) &Inputs::law_##letter,
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
 #undef SLIDEWAY_PLACE
 };
-inline constexpr double Inputs::*mechanism_inputs[] = {
+static constexpr double Inputs::*mechanism_inputs[] = {
 #define SLIDEWAY_PLACE(letter) &Inputs::mechanism_##letter,
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
 #undef SLIDEWAY_PLACE
 };
-inline constexpr double Inputs::*load_inputs[] = {
+static constexpr double Inputs::*load_inputs[] = {
 #define SLIDEWAY_PLACE(letter) &Inputs::load_##letter,
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
 #undef SLIDEWAY_PLACE
 };
 static_assert(sizeof(load_inputs) / sizeof(load_inputs[0]) == most_load_numbers);
-inline constexpr double Inputs::*linkage_inputs[] = {
+static constexpr double Inputs::*linkage_inputs[] = {
 #define SLIDEWAY_PLACE(number) &Inputs::linkage_##number,
     SLIDEWAY_LINKAGE_NUMBERS(SLIDEWAY_PLACE)
 #undef SLIDEWAY_PLACE

@@ -89,12 +89,12 @@ Isa best_isa() {
 }
 
 Isa best_isa(Parts const& parts) {
+    if (parts.linkage != nullptr) return best_isa();
     auto const law = static_cast<std::size_t>(parts.law), mechanism = static_cast<std::size_t>(parts.mechanism);
     auto const laws = built_table[0].laws.size(), mechanisms = built_table[0].kernels.size();
     Isa best = Isa::scalar;
     bool found = false;
     for (Isa const isa : built_isas()) {
-        if (parts.linkage != nullptr) return best_isa();
         bool const has = is_supported(isa) && (law < laws || has_own_kernels(ModuleKind::law, law - laws, compiled_isa(isa))) &&
                          (mechanism < mechanisms || has_own_kernels(ModuleKind::mechanism, mechanism - mechanisms, compiled_isa(isa)));
         if (has && (!found || lanes_of(isa) > lanes_of(best))) best = isa, found = true;

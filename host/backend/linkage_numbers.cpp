@@ -11,15 +11,18 @@ namespace slideway {
 LinkageAssembly assembled(LinkagePlan const& plan, Inputs const& in) {
     LinkageParameters<double> const p = linkage_parameters(plan, in);
     LinkageStart const start(plan, p, start_speed(in));
-    LinkageAssembly assembly{static_cast<LinkageAssembly::Fault>(start.fault()), start.worst(), start.distance(), {}};
-    put_linkage_start(plan, in, assembly.state.data());
-    return assembly;
+    return {start.fault(), start.worst(), start.distance()};
+}
+
+StateNumbers start_of(LinkagePlan const& plan, Inputs const& in) {
+    StateNumbers state{};
+    put_linkage_start(plan, in, state.data());
+    return state;
 }
 
 LinkageSize size_of(LinkagePlan const& plan, Inputs const& in) {
     LinkageParameters<double> const p = linkage_parameters(plan, in);
-    LinkageSize size{p.play, p.play, 0, p.mass};
-    for (int i = 0; i < plan.bodies; ++i) size.reach = std::max(size.reach, p.body[i].reach);
+    LinkageSize size{p.play, p.play, p.reach, p.mass};
     for (int k = 0; k < plan.closures; ++k) size.most_play = std::max(size.most_play, p.closure[k].clearance);
     return size;
 }

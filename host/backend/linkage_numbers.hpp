@@ -9,13 +9,14 @@ namespace slideway {
 
 /// How a member's linkage goes together at the start (kernels/linkage/linkage_start.hpp).
 struct LinkageAssembly {
-    enum class Fault { none, open, redundant } fault;
+    AssemblyFault fault;
     int worst;            // the closure that stays open, or holds what others hold
     double distance;      // by which it stays open [m]
-    StateNumbers state;   // NaN where there is a fault
 };
-/// @param in complete
+/// @param in complete, here and below
 LinkageAssembly assembled(LinkagePlan const& plan, Inputs const& in);
+/// The state in which a member starts; NaN where it does not go together.
+StateNumbers start_of(LinkagePlan const& plan, Inputs const& in);
 
 /// Clearances [m], how far a body reaches [m], and the mass of all [kg].
 struct LinkageSize { double least_play, most_play, reach, mass; };

@@ -42,8 +42,8 @@ void print_parts(Scene const& scene) {
     if (mechanism.spatial) {
         for (LawInfo const& law : laws()) sort(law.name == contact_info(scene.parts).name, fmt::format("{} law", law.name));
         if (may_be_rigid(scene.parts.mechanism)) sort(scene.parts.rigid, "rigid contact");
-    } else {
-        if (!is_linkage(scene.parts.mechanism)) sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
+    } else if (!is_linkage(scene.parts.mechanism)) {
+        sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
     }
     constexpr char const* drives[] = {"drive at constant speed", "drive on a profile", "motor", "no drive"};
     if (scene.parts.drive.by != DriveBy::speed) sort(true, drives[static_cast<int>(scene.parts.drive.by)]);

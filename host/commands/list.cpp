@@ -8,9 +8,9 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
-#include "host/config/linkages.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/key_reference.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
 #include "host/sampling/distribution.hpp"

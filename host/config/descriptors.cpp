@@ -160,7 +160,7 @@ MemberSize size_of(Mechanism mechanism, Inputs const& in) {
 }
 StateNumbers start_of(Mechanism mechanism, Inputs const& in) {
     Linkage const* const linkage = linkage_of(mechanism);
-    return linkage != nullptr ? assembled(linkage->plan, in).state : start_of(info(mechanism), in);
+    return linkage != nullptr ? start_of(linkage->plan, in) : start_of(info(mechanism), in);
 }
 LawInfo const& info(Law law) { return laws()[static_cast<std::size_t>(law)]; }
 LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }

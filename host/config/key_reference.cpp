@@ -126,13 +126,29 @@ std::string usual_text(Setting const& key) {
     return usual.low > 0 ? fmt::format("{:g}–{:g}", usual.low, usual.high) : fmt::format("≤ {:g}", usual.high);
 }
 
-std::string owners_text(Setting const& key) {
+namespace {
+
+/// Names of mechanisms: a word for all in space, and for all but one.
+std::string in_brief(std::vector<std::string_view> const& names) {
+    std::vector<std::string_view> in_space, others;
+    for (MechanismInfo const& one : mechanisms()) {
+        if (one.driven_form != nullptr) continue;
+        if (one.spatial) in_space.emplace_back(one.name);
+        if (std::ranges::find(names, one.name) == names.end()) others.emplace_back(one.name);
+    }
+    if (names == in_space) return "in space";
+    return !names.empty() && others.size() == 1 ? fmt::format("not {}", others.front()) : fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::string owners_text(Setting const& key, bool briefly) {
     std::string text;
-    auto const add = [&](char const* what, std::vector<std::string_view> const& names) {
-        if (!names.empty()) text += fmt::format("{}{}{}", text.empty() ? "" : "; ", what, fmt::join(names, ", "));
+    auto const add = [&](std::string_view what, std::string const& names) {
+        if (!names.empty()) text += fmt::format("{}{}{}", text.empty() ? "" : "; ", what, names);
     };
     auto const of = owners_of(key);
-    for (std::size_t i = 0; i < of.size(); ++i) add(i == 1 ? "law " : "", of[i]);
+    for (std::size_t i = 0; i < of.size(); ++i) add(i == 1 ? "law " : "", briefly && i == 0 ? in_brief(of[i]) : fmt::format("{}", fmt::join(of[i], ", ")));
     return text;
 }
 
@@ -205,34 +221,6 @@ std::string scene_schema(Settings keys) {
     return schema.dump(2) + "\n";
 }
 
-namespace {
-
-/// The same, with a word for the mechanisms in space and for all of them but one.
-std::string shorter(std::string text) {
-    std::string space, all;
-    for (MechanismInfo const& one : mechanisms()) {
-        if (one.driven_form != nullptr || module_of(static_cast<Mechanism>(&one - mechanisms().data())) != nullptr) continue;
-        all += fmt::format("{}{}", all.empty() ? "" : ", ", one.name);
-        if (one.spatial) space += fmt::format("{}{}", space.empty() ? "" : ", ", one.name);
-    }
-    auto const replace = [&](std::string const& names, std::string const& by) {
-        bool const begins = text.starts_with(names) && (text.size() == names.size() || text[names.size()] == ';');
-        if (begins) text.replace(0, names.size(), by);
-        return begins;
-    };
-    if (replace(space, "in space")) return text;
-    for (MechanismInfo const& one : mechanisms()) {
-        std::string const name = fmt::format(", {}", one.name);
-        auto const at = all.find(name);
-        if (at == all.npos) continue;
-        std::string others = all;
-        if (replace(others.erase(at, name.size()), fmt::format("not {}", one.name))) break;
-    }
-    return text;
-}
-
-}  // namespace
-
 std::string keys_markdown(Settings keys) {
     std::string text =
         "# Keys of a scene\n\nEvery key that a scene may have. `slideway list --markdown` writes this page, `slideway list --json` the same for programs, and "
@@ -255,7 +243,7 @@ std::string keys_markdown(Settings keys) {
         std::string domain = domain_text(key);
         if (key.type != Type::number && key.type != Type::choice) domain = fmt::format("{}{}{}", name_of(key.type), domain.empty() ? "" : ", ", domain);
         text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", key.key(), key.unit == "1" ? "" : key.unit, cell(domain), usual_text(key),
-                            cell(preset_text(key)), cell(key.meaning), shorter(owners_text(key)));
+                            cell(preset_text(key)), cell(key.meaning), owners_text(key, true));
     }
     return text;
 }

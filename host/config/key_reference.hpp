@@ -18,11 +18,12 @@ std::string_view name_of(Setting::Type type);
 /// "> 0", "from 0 to 1, 1 included"; "" where any number will do.
 std::string domain_text(Setting const& key);
 
-/// "0.0001 to 10"; "" where any number is usual.
+/// "0.0001–10"; "" where any number is usual.
 std::string usual_text(Setting const& key);
 
 /// "slider_crank, carriage; law paper": who knows it; "" where all do.
-std::string owners_text(Setting const& key);
+/// @param briefly with a word for mechanisms in space, or for all but one
+std::string owners_text(Setting const& key, bool briefly = false);
 
 /// "clearance per side: > 0; default 0.0001 (law paper)"
 std::string described(Setting const& key);

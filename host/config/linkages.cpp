@@ -157,11 +157,8 @@ bool counts_for_linkages(Key const& key, bool driven) {
 
 std::optional<Defect> defect_of_linkage(Inputs const& in, Linkage const& linkage) {
     auto const& plan = linkage.plan;
-    for (Linkage::Row const& row : linkage.rows) {
-        for (std::size_t const i : row.keys) {
-            Key const& key = linkage.keys[i];
-            if (auto problem = broken_rule(key, key.get(in))) return Defect{&key, nullptr, key.get(in), *std::move(problem)};
-        }
+    for (Key const& key : linkage.keys) {
+        if (auto problem = broken_rule(key, key.get(in))) return Defect{&key, nullptr, key.get(in), *std::move(problem)};
     }
     auto const key_at = [&](int place) { return place < 0 ? nullptr : &*std::ranges::find(linkage.keys, linkage_inputs[place], &Key::member); };
     for (int k = 0; k < plan.closures; ++k) {
@@ -174,7 +171,7 @@ std::optional<Defect> defect_of_linkage(Inputs const& in, Linkage const& linkage
         if (std::hypot(x, y) > 1.05 * clearance.get(in))
             return Defect{key_at(of.offset[0] >= 0 ? of.offset[0] : of.offset[1]), nullptr, x, {"the journal starts within its bearing", "use offsets within the clearance"}};
     }
-    using enum LinkageAssembly::Fault;
+    using enum AssemblyFault;
     LinkageAssembly const start = assembled(plan, in);
     if (start.fault == none) return std::nullopt;
     // Any key of the joint that is worst says where it is.

@@ -28,7 +28,7 @@ void check_known(Reading const& reading) {
     std::vector<std::string_view> all = keys;
     all.insert(all.end(), tables.begin(), tables.end());
     for (Node const& node : reading.root.children) {
-        if (has_named_loads(node.key) || node.key == body_table || node.key == link_table) continue;  // read_loads and read_linkage do it
+        if (has_named_tables(node.key)) continue;
         bool const is_table = contains(tables, node.key);
         if (is_table && !node.is_table()) refuse(node, {"it must be a table", fmt::format("write [{}] and its keys below", node.key)});
         for (Node const& child : node.children) {
@@ -85,6 +85,8 @@ Node const* Reading::given_of(std::initializer_list<std::string_view> names) con
     }
     return nullptr;
 }
+
+bool has_named_tables(std::string_view table) { return has_named_loads(table) || table == body_table || table == link_table; }
 
 void Reading::read_table(std::string_view table) {
     for (Setting const& row : keys) {

@@ -83,6 +83,9 @@ struct Reading {
     std::string_view named_now(Node const& node, std::string_view name);
 };
 
+/// Whether what is below a table of the scene are tables of any name, which read_loads or read_linkage know.
+bool has_named_tables(std::string_view table);
+
 /// A node that holds a numeric key of the physics.
 struct GivenKey {
     Key const* key;

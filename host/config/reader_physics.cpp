@@ -100,7 +100,7 @@ std::vector<GivenKey> given_keys(Reading const& reading) {
     auto const add = [&](Node const& table, auto const& add_below) -> void {
         for (Node const& node : table.children) {
             if (Key const* const key = find_key(node.name, reading.scene)) given.push_back({key, &node});
-            else if (has_named_loads(table.key) || table.key == body_table || table.key == link_table) add_below(node, add_below);
+            else if (has_named_tables(table.key)) add_below(node, add_below);
         }
     };
     for (Node const& table : reading.root.children) add(table, add);

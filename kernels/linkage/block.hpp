@@ -5,6 +5,7 @@
 #include "kernels/linkage/linkage_parameters.hpp"
 #include "kernels/linkage/linkage_report.hpp"
 #include "kernels/mechanisms/planar_corners.hpp"
+#include "kernels/mechanisms/planar_report.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -61,22 +62,10 @@ template <class Real> struct BlockInWalls {
         motion.push(of.body[1], at_walls, Real(-1.0) * pushed);
         motion.twist(of.body[1], negated(total.torque));
         if (told == nullptr) return;
-        auto const& depth = corners.depth;
-        auto const& rate = corners.rate;
-        Real const zero(0.0);
         told->normal_force[of.pair / 4] = force;
         told->force[closure] = sum(force);
-        auto const stored = [&](Real load, Real deep) { return load * max(deep, zero); };
-        told->potential = fma(numbers.contact.potential_share, (stored(elastic.a, depth.a) + stored(elastic.b, depth.b)) + (stored(elastic.c, depth.c) + stored(elastic.d, depth.d)),
-                              told->potential);
-        auto const power = [&](Quad<Real> const& f) { return fma(f.a, rate.a, f.b * rate.b) + fma(f.c, rate.c, f.d * rate.d); };
-        told->elastic_power = told->elastic_power + power(elastic);
-        told->damping_power = told->damping_power + power({force.a - elastic.a, force.b - elastic.b, force.c - elastic.c, force.d - elastic.d});
         told->friction_power = told->friction_power + loss;
-        auto const a = depth.a > zero, b = depth.b > zero, c = depth.c > zero, d = depth.d > zero;
-        auto const upper = a & d, lower = b & c;
-        told->surfaces = told->surfaces + (count<Real>(upper) + count<Real>(lower));
-        told->points = told->points + ((count<Real>(a & !upper) + count<Real>(d & !upper)) + (count<Real>(b & !lower) + count<Real>(c & !lower)));
+        add_corners(*told, force, elastic, corners.depth, corners.rate, numbers.contact.potential_share);
     }
 };
 

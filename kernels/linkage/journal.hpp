@@ -1,9 +1,6 @@
 #pragma once
 
-#include "kernels/joint/contact_memory.hpp"
-#include "kernels/laws/damping.hpp"
-#include "kernels/laws/friction.hpp"
-#include "kernels/laws/point.hpp"
+#include "kernels/joint/point_pair.hpp"
 #include "kernels/linkage/linkage_motion.hpp"
 #include "kernels/linkage/linkage_parameters.hpp"
 #include "kernels/linkage/linkage_report.hpp"
@@ -38,22 +35,16 @@ template <class Real> struct Journal {
                           LinkageContact<Real>* told) const {
         Real const zero(0.0), one(1.0);
         auto const& numbers = p.closure[closure];
-        auto const touches = depth > zero;
-        Real const elastic = select(touches, point_load(select(touches, depth, one), numbers.contact), zero);
-        ApexMotion<Real> const apex{depth, rate, max(v0, Real(least_impact_speed))};
-        Real force = remembers ? RestitutionDamping::point_force(elastic, apex, numbers.contact, p.damping)
-                               : PointDamping::point_force(elastic, apex, numbers.contact, p.damping);
-        force = select(touches, force, zero);
+        Real const elastic = pair_load(depth, numbers.contact);
+        Real const force = pair_force(elastic, depth, rate, v0, numbers.contact, p.damping, remembers);
         auto const& of = plan.closure[closure];
         auto pushed = negated(force) * outward;
         Real loss = zero;
         if (has_friction) {
             auto const aside = across(outward);
             Real const spin = motion.spin(of.body[1]), between = motion.spin(of.body[0]) - spin;
-            Real const slip = fma(numbers.journal, between, fnma(spin, distance, dot(aside, pin.velocity - hole.velocity))), speed = abs(slip);
-            Real const drag = StickSlipFriction::coefficient(speed, p.friction) * force;
-            pushed = add(pushed, negated(drag) * (slip / max(speed, Real(1e-70))), aside);
-            loss = drag * speed;
+            Real const slip = fma(numbers.journal, between, fnma(spin, distance, dot(aside, pin.velocity - hole.velocity)));
+            pushed = add(pushed, pair_friction(slip, force, p.friction, loss), aside);
         }
         // The same point of both.
         auto const at_pin = add(pin.arm, numbers.journal, outward), at_hole = at_pin + ((pin.place - pin.arm) - (hole.place - hole.arm));
@@ -66,7 +57,7 @@ template <class Real> struct Journal {
         told->damping_power = fma(force - elastic, rate, told->damping_power);
         told->elastic_power = fma(elastic, rate, told->elastic_power);
         told->friction_power = told->friction_power + loss;
-        told->points = told->points + count<Real>(touches);
+        told->points = told->points + count<Real>(depth > zero);
     }
 };
 

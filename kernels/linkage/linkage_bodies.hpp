@@ -42,7 +42,6 @@ public:
     /// Against the ground [rad].
     SLIDEWAY_FN Real angle(int body) const { return body == LinkageBody::ground ? Real(0.0) : body_[body].angle; }
     SLIDEWAY_FN Real rate(int coordinate) const { return rate_[coordinate]; }
-    SLIDEWAY_FN Real place(int coordinate) const { return place_[coordinate]; }
 
     /// Adds a force at an arm from a body's origin.
     SLIDEWAY_FN void push(int body, Vector const& arm, Vector const& force) {

@@ -66,7 +66,7 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
     SLIDEWAY_NOINLINE Faults<Real> derivative(Real t, Real const* s, LinkageParameters<Real> const& p,
                                               ContactMemory<Real, LinkageContact<Real>::quads> const& memory, Real* rates, LinkageReport<Real>* report) const {
         bool const driven = is_driven();
-        auto const crank = plan->is_driven ? given_crank(this->block.drive, t, s[0], s[1], p) : GivenMotion<Real>{s[0], s[1], Real(0.0)};
+        auto const crank = crank_of(t, s, p);
         LinkageMotion<Real> motion(*plan, p, s, driven, crank);
         LinkageContact<Real>* told = nullptr;
         if constexpr (Full) told = &report->contact, told->start();
@@ -94,8 +94,7 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
     template <class Real>
     SLIDEWAY_NOINLINE void project(Mask<Real> in, Real t, Real* s, LinkageParameters<Real> const& p) const {
         if (plan->loops() == 0) return;
-        auto const crank = plan->is_driven ? given_crank(this->block.drive, t, s[0], s[1], p) : GivenMotion<Real>{s[0], s[1], Real(0.0)};
-        LinkageMotion<Real> motion(*plan, p, s, is_driven(), crank);
+        LinkageMotion<Real> motion(*plan, p, s, is_driven(), crank_of(t, s, p));
         motion.gather();
         auto const singular = motion.close_loops();
         motion.project(in & !singular, s);
@@ -103,8 +102,7 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
 
     /// Gap of a pair: its penetration negated [m].
     template <class Real> SLIDEWAY_FN Real gap(Real t, Real const* s, LinkageParameters<Real> const& p, bool, int pair) const {
-        auto const crank = plan->is_driven ? given_crank(this->block.drive, t, s[0], s[1], p) : GivenMotion<Real>{s[0], s[1], Real(0.0)};
-        LinkageMotion<Real> const motion(*plan, p, s, is_driven(), crank);
+        LinkageMotion<Real> const motion(*plan, p, s, is_driven(), crank_of(t, s, p));
         Real depth(-1.0);
         for (int k = 0; k < plan->closures; ++k) {
             LinkageClosure const& of = plan->closure[k];
@@ -118,6 +116,11 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
     }
 
 private:
+    /// Coordinate 0, as a drive gives it or as it is.
+    template <class Real> SLIDEWAY_FN GivenMotion<Real> crank_of(Real t, Real const* s, LinkageParameters<Real> const& p) const {
+        return plan->is_driven ? given_crank(this->block.drive, t, s[0], s[1], p) : GivenMotion<Real>{s[0], s[1], Real(0.0)};
+    }
+
     template <class Real, class Memory>
     SLIDEWAY_FN void push(LinkageMotion<Real>& motion, LinkageParameters<Real> const& p, Memory const& memory, LinkageContact<Real>* told) const {
         using Contact = LinkageContact<Real>;

@@ -3,6 +3,7 @@
 #include "kernels/linkage/linkage_bodies.hpp"
 #include "kernels/linkage/linkage_parameters.hpp"
 #include "kernels/linkage/linkage_plan.hpp"
+#include "kernels/math/cholesky.hpp"
 #include "kernels/mechanisms/crank_motion.hpp"
 #include "kernels/real.hpp"
 
@@ -46,28 +47,15 @@ public:
             for (int c = 0; c < plan_.coordinates; ++c) response_[i][c] = jacobian_[i][c];
             solve(response_[i]);
         }
-        Real largest(0.0);
         for (int i = 0; i < m; ++i) {
             for (int j = 0; j <= i; ++j) {
                 Real sum(0.0);
                 for (int c = first_; c < plan_.coordinates; ++c) sum = fma(jacobian_[i][c], response_[j][c], sum);
-                root_[i][j] = sum;
-            }
-            largest = max(largest, root_[i][i]);
-        }
-        for (int i = 0; i < m; ++i) {
-            for (int j = 0; j <= i; ++j) {
-                Real sum = root_[i][j];
-                for (int k = 0; k < j; ++k) sum = fnma(root_[i][k], root_[j][k], sum);
-                if (i > j) {
-                    root_[i][j] = sum * root_[j][j];
-                } else {
-                    // Accelerations grow with the third power of how near a dead centre is: nothing is right beside it.
-                    singular = singular | !(sum > Real(1e-8) * largest);
-                    root_[i][i] = Real(1.0) / sqrt(sum);
-                }
+                loop_factors_.entry[i][j] = sum;
             }
         }
+        // Accelerations grow with the third power of how near a dead centre is: nothing is right beside it.
+        loop_factors_.factor(m, 1e-8, [&](int, Mask<Real> here) { singular = singular | here; });
         return singular;
     }
 
@@ -84,7 +72,7 @@ public:
         for (int i = 0; i < 2 * loops_; ++i) {
             for (int c = first_; c < plan_.coordinates; ++c) force_[i] = fnma(jacobian_[i][c], of[c], force_[i]);
         }
-        solve_loops(force_);
+        loop_factors_.solve(force_);
         add_responses(force_, of);
     }
 
@@ -105,8 +93,8 @@ public:
             rates[2 * k] = negated(gap.velocity.x), rates[2 * k + 1] = negated(gap.velocity.y);
         }
         for (int c = 0; c < plan_.coordinates; ++c) shift[c] = change[c] = Real(0.0);
-        solve_loops(places);
-        solve_loops(rates);
+        loop_factors_.solve(places);
+        loop_factors_.solve(rates);
         add_responses(places, shift);
         add_responses(rates, change);
         for (int c = first_; c < plan_.coordinates; ++c) {
@@ -197,18 +185,6 @@ private:
         }
     }
 
-    /// x ← (J M⁻¹ Jᵀ)⁻¹ x.
-    SLIDEWAY_FN void solve_loops(Real* x) const {
-        int const m = 2 * loops_;
-        for (int i = 0; i < m; ++i) {
-            for (int j = 0; j < i; ++j) x[i] = fnma(root_[i][j], x[j], x[i]);
-            x[i] = x[i] * root_[i][i];
-        }
-        for (int i = m - 1; i >= 0; --i) {
-            for (int j = i + 1; j < m; ++j) x[i] = fnma(root_[j][i], x[j], x[i]);
-            x[i] = x[i] * root_[i][i];
-        }
-    }
     SLIDEWAY_FN void add_responses(Real const* forces, Real* of) const {
         for (int i = 0; i < 2 * loops_; ++i) {
             for (int c = first_; c < plan_.coordinates; ++c) of[c] = fma(forces[i], response_[i][c], of[c]);
@@ -220,7 +196,8 @@ private:
     int closed_[LinkagePlan::most_closures];
     Real h_[n];
     Real m_[n][n];
-    Real jacobian_[rows][n], response_[rows][n], root_[rows][rows], force_[rows];  // of the root the diagonal upside down
+    Real jacobian_[rows][n], response_[rows][n], force_[rows];
+    CholeskyFactors<rows, Real> loop_factors_;  // of J M⁻¹ Jᵀ
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

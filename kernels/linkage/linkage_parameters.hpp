@@ -64,26 +64,6 @@ SLIDEWAY_FN double sphere_stiffness(Inputs const& in, double journal, double bea
 
 namespace detail {
 
-// Where a member's numbers are, of this instruction set: units of another share no table with it.
-inline constexpr double Inputs::*linkage_places[] = {
-#define SLIDEWAY_PLACE(number) &Inputs::linkage_##number,
-    SLIDEWAY_LINKAGE_NUMBERS(SLIDEWAY_PLACE)
-#undef SLIDEWAY_PLACE
-};
-inline constexpr double Inputs::*start_places[] = {
-#define SLIDEWAY_PLACE(letter) &Inputs::mechanism_##letter,
-    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
-#undef SLIDEWAY_PLACE
-};
-
-/// What a plan finds among the inputs of a member.
-struct LinkageNumbers {
-    Inputs const& in;
-
-    SLIDEWAY_HD double operator()(int place) const { return place == LinkageBody::none ? 0.0 : in.*linkage_places[place]; }
-    SLIDEWAY_HD Vec2<double> operator()(int const (&places)[2]) const { return {(*this)(places[0]), (*this)(places[1])}; }
-};
-
 SLIDEWAY_HD inline Vec2<double> turned(Vec2<double> v, double angle) {
     return angle == 0 ? v : slideway::turned(sincos(angle), v);
 }
@@ -95,27 +75,25 @@ SLIDEWAY_HD inline double length(Vec2<double> v) { return ::sqrt(v.x * v.x + v.y
 SLIDEWAY_HD inline LinkageParameters<double> linkage_parameters(LinkagePlan const& plan, Inputs const& in) {
     using detail::turned, detail::length;
     LinkageParameters<double> p{};
-    detail::LinkageNumbers const number{in};
+    auto const number = [&](int place) { return place == LinkageBody::none ? 0.0 : in.*linkage_inputs[place]; };
+    auto const point = [&](int const (&places)[2]) { return Vec2<double>{number(places[0]), number(places[1])}; };
     // Where the axes of a body begin for the kernels, and how far its own are turned: a prismatic joint's are those of the body below.
     Vec2<double> origin[LinkagePlan::most_bodies] = {};
     double turn[LinkagePlan::most_bodies] = {};
-    auto const local = [&](int body, Vec2<double> point) {
-        if (body == LinkageBody::ground) return point;
-        return turned({point.x - origin[body].x, point.y - origin[body].y}, turn[body]);
-    };
-    auto const reach = [&](int body, Vec2<double> point) {
-        if (body != LinkageBody::ground) p.body[body].reach = max(p.body[body].reach, length(point));
+    auto const local = [&](int body, Vec2<double> at) { return body == LinkageBody::ground ? at : turned(at - origin[body], turn[body]); };
+    auto const reach = [&](int body, Vec2<double> at) {
+        if (body != LinkageBody::ground) p.body[body].reach = max(p.body[body].reach, length(at));
     };
     for (int i = 0; i < plan.bodies; ++i) {
         LinkageBody const& of = plan.body[i];
         auto& body = p.body[i];
         bool const slides = of.joint == TreeJoint::prismatic;
-        origin[i] = of.joint == TreeJoint::floating ? number(of.center) : number(of.own);
+        origin[i] = of.joint == TreeJoint::floating ? point(of.center) : point(of.own);
         turn[i] = slides ? number(of.turn) + (of.parent == LinkageBody::ground ? 0 : turn[of.parent]) : 0;
         body.mass = number(of.mass);
         body.inertia = number(of.inertia);
-        body.center = local(i, number(of.center));
-        body.at = local(of.parent, number(of.on_parent));
+        body.center = local(i, point(of.center));
+        body.at = local(of.parent, point(of.on_parent));
         auto const direction = sincos(number(of.direction) + (of.parent == LinkageBody::ground ? 0 : turn[of.parent]));
         body.along = {direction.cos, direction.sin};
         body.angle = number(of.angle);
@@ -151,10 +129,10 @@ SLIDEWAY_HD inline LinkageParameters<double> linkage_parameters(LinkagePlan cons
         LinkageClosure const& of = plan.closure[i];
         auto& closure = p.closure[i];
         for (int side = 0; side < 2; ++side) {
-            closure.point[side] = local(of.body[side], number(of.point[side]));
+            closure.point[side] = local(of.body[side], point(of.point[side]));
             reach(of.body[side], closure.point[side]);
         }
-        closure.offset = number(of.offset);
+        closure.offset = point(of.offset);
         double const bearing = number(of.radius);
         closure.clearance = number(of.clearance);
         closure.journal = bearing - closure.clearance;

@@ -54,6 +54,9 @@ struct LinkageClosure {
     constexpr int pairs() const { return kind == ClosureKind::block ? 4 : kind == ClosureKind::journal ? 1 : 0; }
 };
 
+/// Why a linkage does not go together at the start: a joint stays open, or holds what others hold.
+enum class AssemblyFault { none, open, redundant };
+
 struct LinkagePlan {
     static constexpr int most_bodies = 8, most_coordinates = most_linkage_coordinates, most_closures = 8, most_loops = 3, most_pairs = 8;
     static constexpr int most_states = 2 * most_coordinates;

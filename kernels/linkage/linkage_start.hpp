@@ -4,6 +4,7 @@
 #include "kernels/linkage/linkage_motion.hpp"
 #include "kernels/linkage/linkage_parameters.hpp"
 #include "kernels/linkage/linkage_plan.hpp"
+#include "kernels/math/cholesky.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -12,8 +13,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// method from the angles that bodies are given, with the least motion, each coordinate in the size of its body; rates likewise.
 class LinkageStart {
 public:
-    enum class Fault { none, open, redundant };
-
     SLIDEWAY_HD LinkageStart(LinkagePlan const& plan, LinkageParameters<double> const& p, double speed) : plan_(plan), p_(p), speed_(speed) {
         for (int i = 0; i < plan.bodies; ++i) {
             LinkageBody const& of = plan.body[i];
@@ -35,18 +34,17 @@ public:
                 if (waits_[i] && hang(i)) waits_[i] = false;
             }
         }
-        for (int i = 0; i < plan.bodies; ++i) size_ = max(size_, p.body[i].reach);
         close();
     }
 
     /// What is wrong, and where it is worst.
-    SLIDEWAY_HD Fault fault() const { return fault_; }
+    SLIDEWAY_HD AssemblyFault fault() const { return fault_; }
     SLIDEWAY_HD int worst() const { return worst_; }
     SLIDEWAY_HD double distance() const { return distance_; }
 
     /// NaN where it cannot be put together.
     SLIDEWAY_HD void put(double* state) const {
-        for (int i = 0; i < plan_.states(); ++i) state[i] = fault_ == Fault::none ? state_[i] : not_a_number;
+        for (int i = 0; i < plan_.states(); ++i) state[i] = fault_ == AssemblyFault::none ? state_[i] : not_a_number;
     }
 
 private:
@@ -104,7 +102,7 @@ private:
 
     SLIDEWAY_HD void close() {
         int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
-        double const enough = 4e-16 * size_, good = 1e-11 * size_;
+        double const enough = 4e-16 * p_.reach, good = 1e-11 * p_.reach;
         double former = 1e300;
         for (int turn = 0; m > 0 && turn < 200; ++turn) {
             auto const at = motion();
@@ -121,11 +119,11 @@ private:
             if (!factor(at)) break;
             move(gap, 0, first);
         }
-        if (!(distance_ <= good)) fault_ = Fault::open;
-        if (m == 0 || fault_ != Fault::none) return;
+        if (!(distance_ <= good)) fault_ = AssemblyFault::open;
+        if (m == 0 || fault_ != AssemblyFault::none) return;
         auto const at = motion();
         if (!factor(at)) {
-            fault_ = Fault::redundant;
+            fault_ = AssemblyFault::redundant;
             return;
         }
         double gap[rows];
@@ -140,41 +138,24 @@ private:
     SLIDEWAY_HD bool factor(LinkageMotion<double> const& at) {
         int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
         for (int k = 0; k < plan_.closures; ++k) put_rows(at, k, jacobian_[2 * k], jacobian_[2 * k + 1]);
-        double largest = 0;
         for (int i = 0; i < m; ++i) {
             for (int j = 0; j <= i; ++j) {
                 double sum = 0;
                 for (int c = first; c < plan_.coordinates; ++c) sum += jacobian_[i][c] * weight_[c] * weight_[c] * jacobian_[j][c];
-                root_[i][j] = sum;
-            }
-            largest = max(largest, root_[i][i]);
-        }
-        for (int i = 0; i < m; ++i) {
-            for (int j = 0; j <= i; ++j) {
-                double sum = root_[i][j];
-                for (int k = 0; k < j; ++k) sum -= root_[i][k] * root_[j][k];
-                if (i == j) {
-                    if (!(sum > 1e-10 * largest)) return worst_ = i / 2, false;
-                    root_[i][i] = ::sqrt(sum);
-                } else {
-                    root_[i][j] = sum / root_[j][j];
-                }
+                factors_.entry[i][j] = sum;
             }
         }
-        return true;
+        bool whole = true;
+        factors_.factor(m, 1e-10, [&](int row, bool singular) {
+            if (singular && whole) worst_ = row / 2, whole = false;
+        });
+        return whole;
     }
 
     /// The least motion that closes gaps, of places (0) or rates (1).
     SLIDEWAY_HD void move(double* gap, int of, int first) {
         int const m = 2 * plan_.closures;
-        for (int i = 0; i < m; ++i) {
-            for (int j = 0; j < i; ++j) gap[i] -= root_[i][j] * gap[j];
-            gap[i] /= root_[i][i];
-        }
-        for (int i = m - 1; i >= 0; --i) {
-            for (int j = i + 1; j < m; ++j) gap[i] -= root_[j][i] * gap[j];
-            gap[i] /= root_[i][i];
-        }
+        factors_.solve(gap);
         // Far from where it closes, no angle by more than a third of a right one at once.
         double step[n], largest = 0;
         for (int c = first; c < plan_.coordinates; ++c) {
@@ -193,16 +174,17 @@ private:
     double state_[LinkagePlan::most_states] = {};
     double weight_[n] = {};
     bool waits_[LinkagePlan::most_bodies] = {};  // bodies that float and have no place yet
-    double jacobian_[rows][n], root_[rows][rows];
-    double size_ = 0, distance_ = 0;
+    double jacobian_[rows][n];
+    CholeskyFactors<rows, double> factors_;
+    double distance_ = 0;
     int worst_ = 0;
-    Fault fault_ = Fault::none;
+    AssemblyFault fault_ = AssemblyFault::none;
 };
 
 /// The state in which a member starts: the one that it is given, or as it goes together.
 SLIDEWAY_HD inline void put_linkage_start(LinkagePlan const& plan, Inputs const& in, double* state) {
     if (in.mechanism_a == in.mechanism_a) {
-        for (int i = 0; i < plan.states(); ++i) state[i] = in.*detail::start_places[i];
+        for (int i = 0; i < plan.states(); ++i) state[i] = in.*mechanism_inputs[i];
         return;
     }
     auto const p = linkage_parameters(plan, in);

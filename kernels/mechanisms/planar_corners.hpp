@@ -1,11 +1,8 @@
 #pragma once
 
 #include "kernels/joint/apex.hpp"
-#include "kernels/joint/contact_memory.hpp"
-#include "kernels/laws/damping.hpp"
+#include "kernels/joint/point_pair.hpp"
 #include "kernels/laws/face.hpp"
-#include "kernels/laws/friction.hpp"
-#include "kernels/laws/point.hpp"
 #include "kernels/mechanisms/planar_links.hpp"
 #include "kernels/real.hpp"
 
@@ -51,20 +48,12 @@ template <class Real> struct PlanarCorners {
 
     /// Elastic forces [N].
     SLIDEWAY_FN Quad<Real> loads(PointContact<Real> const& point) const {
-        auto const of = [&](Real deep) {
-            auto const touches = deep > Real(0.0);
-            return select(touches, point_load(select(touches, deep, Real(1.0)), point), Real(0.0));
-        };
-        return {of(depth.a), of(depth.b), of(depth.c), of(depth.d)};
+        return {pair_load(depth.a, point), pair_load(depth.b, point), pair_load(depth.c, point), pair_load(depth.d, point)};
     }
     /// The same with their damping.  @param v0 δ' of the last touches, which count if `remembers`
     SLIDEWAY_FN Quad<Real> damped(Quad<Real> const& elastic, Quad<Real> const& v0, PointContact<Real> const& point, DampingParameters<Real> const& damping,
                                   bool remembers) const {
-        auto const of = [&](Real load, Real deep, Real rate_of, Real speed) {
-            ApexMotion<Real> const corner{deep, rate_of, max(speed, Real(least_impact_speed))};
-            Real const force = remembers ? RestitutionDamping::point_force(load, corner, point, damping) : PointDamping::point_force(load, corner, point, damping);
-            return select(deep > Real(0.0), force, Real(0.0));
-        };
+        auto const of = [&](Real load, Real deep, Real rate_of, Real speed) { return pair_force(load, deep, rate_of, speed, point, damping, remembers); };
         return {of(elastic.a, depth.a, rate.a, v0.a), of(elastic.b, depth.b, rate.b, v0.b), of(elastic.c, depth.c, rate.c, v0.c),
                 of(elastic.d, depth.d, rate.d, v0.d)};
     }
@@ -80,12 +69,9 @@ template <class Real> struct PlanarCorners {
     SLIDEWAY_FN Real add_friction(Quad<Real> const& force, Real vx, Parameters const& p, PlanarPush<Real>& push) const {
         Real power(0.0);
         auto const rub = [&](Real load, Real height) {  // height of the corner over the slider's centre
-            Real const slip = fnma(height, w3, vx), speed = abs(slip);
-            Real const drag = StickSlipFriction::coefficient(speed, p.friction) * load;
-            Real const along = negated(drag) * (slip / max(speed, Real(1e-70)));
+            Real const along = pair_friction(fnma(height, w3, vx), load, p.friction, power);
             push.fx = push.fx + along;
             push.torque = fnma(height, along, push.torque);
-            power = fma(drag, speed, power);
         };
         rub(force.a, lift + tall);
         rub(force.b, lift - tall);

@@ -8,8 +8,26 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What touches of the planar slider.  Corners as (s3 along X, s1 along Y): a (+,+), b (+,−), c (−,−), d (−,+).  Of the totals a wall
-/// that both its corners touch is a surface, other touching corners are points.
+/// Adds what the four corners of a block come to: a wall that both its corners touch is a surface, other touching corners are points.
+/// @param potential_share 1/(n + 1)
+template <class Real>
+SLIDEWAY_FN void add_corners(ContactTotals<Real>& totals, Quad<Real> const& force, Quad<Real> const& elastic, Quad<Real> const& depth, Quad<Real> const& rate,
+                             Real potential_share) {
+    Real const zero(0.0);
+    Real const stored = fma(elastic.a, max(depth.a, zero), elastic.b * max(depth.b, zero)) +
+                        fma(elastic.c, max(depth.c, zero), elastic.d * max(depth.d, zero));
+    totals.potential = fma(potential_share, stored, totals.potential);
+    totals.damping_power = totals.damping_power + (fma(force.a - elastic.a, rate.a, (force.b - elastic.b) * rate.b) +
+                                                   fma(force.c - elastic.c, rate.c, (force.d - elastic.d) * rate.d));
+    totals.elastic_power = totals.elastic_power + (fma(elastic.a, rate.a, elastic.b * rate.b) + fma(elastic.c, rate.c, elastic.d * rate.d));
+    auto const a = depth.a > zero, b = depth.b > zero, c = depth.c > zero, d = depth.d > zero;
+    auto const upper = a & d, lower = b & c;
+    totals.surfaces = totals.surfaces + (count<Real>(upper) + count<Real>(lower));
+    totals.points =
+        totals.points + ((count<Real>(a & !upper) + count<Real>(d & !upper)) + (count<Real>(b & !lower) + count<Real>(c & !lower)));
+}
+
+/// What touches of the planar slider.  Corners as (s3 along X, s1 along Y): a (+,+), b (+,−), c (−,−), d (−,+).
 template <class Real> struct PlanarContact : ContactTotals<Real> {
     Quad<Real> penetration[1];   // [m]
     Quad<Real> rate[1];          // [m/s]
@@ -33,21 +51,8 @@ template <class Real> struct PlanarContact : ContactTotals<Real> {
 
     /// @param potential_share 1/(n + 1)
     SLIDEWAY_FN void tell(Quad<Real> const& force, Quad<Real> const& elastic, Real potential_share) {
-        Real const zero(0.0);
-        auto const& depth = penetration[0];
-        auto const& v = rate[0];
         normal_force[0] = force;
-        Real const stored = fma(elastic.a, max(depth.a, zero), elastic.b * max(depth.b, zero)) +
-                            fma(elastic.c, max(depth.c, zero), elastic.d * max(depth.d, zero));
-        this->potential = potential_share * stored;
-        this->damping_power = fma(force.a - elastic.a, v.a, (force.b - elastic.b) * v.b) +
-                              fma(force.c - elastic.c, v.c, (force.d - elastic.d) * v.d);
-        this->elastic_power = fma(elastic.a, v.a, elastic.b * v.b) + fma(elastic.c, v.c, elastic.d * v.d);
-        auto const a = depth.a > zero, b = depth.b > zero, c = depth.c > zero, d = depth.d > zero;
-        auto const upper = a & d, lower = b & c;
-        this->surfaces = count<Real>(upper) + count<Real>(lower);
-        this->points =
-            (count<Real>(a & !upper) + count<Real>(d & !upper)) + (count<Real>(b & !lower) + count<Real>(c & !lower));
+        add_corners(*this, force, elastic, penetration[0], rate[0], potential_share);
     }
 };
 

@@ -61,7 +61,7 @@ std::string scene_text(Description const& of, double start_angle) {
 /// The linkage in absolute coordinates.
 class AbsoluteLinkage {
 public:
-    AbsoluteLinkage(Description const& of, Scene const& scene, StateNumbers const& state) : of_(of), in_(member_inputs(scene, 0)) {
+    AbsoluteLinkage(Description const& of, Scene const& scene, StateNumbers const& state) : of_(of) {
         Linkage const& linkage = *linkage_of(scene.parts.mechanism);
         place_.resize(of.bodies.size()), speed_ = place_;
         std::vector<bool> stands(of.bodies.size(), false);
@@ -130,7 +130,6 @@ public:
         Pair const relative = acceleration(link.second, p2, a) - acceleration(link.first, p1, a);
         return u.dot(relative) + 2 * w * across(u).dot(v) + (alpha * across(u) - w * w * u).dot(d);
     }
-    Real place_of(std::size_t body, int i) const { return place_[body](i); }
 
 private:
     struct Point { Pair arm, place, velocity; };
@@ -229,7 +228,7 @@ private:
     void add_block(Link const& link, Column& force) const {
         auto const a = point(link.first, link.x1, link.y1), b = point(link.second, link.x2, link.y2);
         Real const turn = angle(link.second) + direction(link), wall_spin = spin(link.second);
-        Pair const along = turned(turn, 1, 0), up = across(along), d = a.place - b.place;
+        Pair const along = turned(turn, 1, 0), up = across(along);
         Real const c = number(link, "clearance"), half = number(link, "height") / 2;
         for (int s3 : {1, -1}) {
             for (int s1 : {1, -1}) {
@@ -243,7 +242,6 @@ private:
                 Pair const by = -s1 * normal * up + drag * along;
                 push(link.first, a, at, by, 0, force);
                 push(link.second, b, at, Pair(-by), 0, force);
-                (void)d;
             }
         }
     }
@@ -280,7 +278,6 @@ private:
     }
 
     Description const& of_;
-    Inputs in_;
     std::vector<Triple> place_, speed_;
 };
 
