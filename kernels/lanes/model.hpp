@@ -124,8 +124,11 @@ template <class Model, class Real> class ModelParts {
                   "is_rigid: sees_contacts, whether see(t, state, parameters, memory, contact) tells what the watch asks for without the forces");
     static_assert(!Model::has_contacts || requires(Model const& m, Report<Real> const& report) { m.switches(); m.watching(true, true); report.contact; },
                   "has_contacts: the model says switches() and watching(locate_modes, neighbours), its report has a contact");
-    static_assert(!Model::has_contacts || IsRigid<Model> || requires(Parameters<Real> const& p) { Model::touch_scale(p); },
-                  "has_contacts: touch_scale(parameters), length that the watch's tolerance is relative to (kernels/steppers/contact_watch.hpp)");
+    static_assert(!Model::has_contacts || IsRigid<Model> || requires(Parameters<Real> const& p) {
+        Model::touch_scale(p);
+        Model::touch_rounding(p);
+    }, "has_contacts: touch_scale(parameters), length that the watch's tolerance is relative to (kernels/steppers/contact_watch.hpp); touch_rounding(parameters), "
+       "what rounding leaves of a depth beside its own digits, as that of the lengths that it is a difference of: no event is located better");
     static_assert(!Model::has_shadows || Memory<Real>::speeds == 0 || requires(Parameters<Real> const& p, typename Model::template Watch<Real> const& w) {
         Model::touch_speed(p);
         w.start_depth(0);

@@ -39,7 +39,8 @@ public:
     SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
         if (!Base::may_cut(step)) return mask_of<Real>(false);
         double const tolerance = step.neighbours.located(Model::template Watch<Real>::tolerance(step.pack.needs.watching));
-        Real const located = Real(tolerance) * Model::touch_scale(step.pack.state.constants.parameters);
+        auto const& p = step.pack.state.constants.parameters;
+        Real const located = max(Real(tolerance) * Model::touch_scale(p), Model::touch_rounding(p));
         auto const candidates = Base::are_long(step, allowed.accepted);
         Real const fraction = step.neighbours.first_event(step.pack, candidates, located, Base::first_event(step, candidates, located));
         return Base::try_again(step, fraction < Real(1.0), fraction, allowed);

@@ -60,6 +60,7 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
     }
     template <class Real> SLIDEWAY_FN static Real touch_speed(LinkageParameters<Real> const& p) { return p.play * p.rate_scale; }
     template <class Real> SLIDEWAY_FN static Real touch_scale(LinkageParameters<Real> const& p) { return p.play; }
+    template <class Real> SLIDEWAY_FN static Real touch_rounding(LinkageParameters<Real> const& p) { return Real(2e-15) * p.reach; }
 
     /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>

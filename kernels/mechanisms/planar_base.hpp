@@ -60,6 +60,8 @@ struct PlanarBase {
 
     /// Length [m] against which the tolerance of a located touch is meant.
     template <class Real> SLIDEWAY_FN static Real touch_scale(PlanarParameters<Real> const& p) { return p.clearance; }
+    /// The links' angles say where the slider is.
+    template <class Real> SLIDEWAY_FN static Real touch_rounding(PlanarParameters<Real> const& p) { return Real(1e-15) * (p.crank_length + p.rod_length); }
 
     SLIDEWAY_HD static PlanarParameters<double> parameters(Inputs const& inputs) { return planar_parameters(inputs); }
 

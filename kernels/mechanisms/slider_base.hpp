@@ -47,6 +47,8 @@ struct SliderBase {
     template <class Real> SLIDEWAY_FN static Real touch_scale(SliderParameters<Real> const& p) {
         return min(p.length_scale_y, p.length_scale_z);
     }
+    /// The state has the slider's place within the clearance.
+    template <class Real> SLIDEWAY_FN static Real touch_rounding(SliderParameters<Real> const&) { return Real(0.0); }
 
     SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& inputs) { return slider_parameters(inputs); }
     /// Speed [m/s] of the motion along the way, r ω.

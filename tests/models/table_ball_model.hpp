@@ -87,6 +87,7 @@ struct TableBallModel : PlainModel<2> {
     SLIDEWAY_HD static Watching watching(bool, bool) { return Watching::touches; }
     SLIDEWAY_HD static bool switches() { return false; }
     template <class Real> SLIDEWAY_FN static Real touch_scale(Parameters<Real> const&) { return Real(1.0); }
+    template <class Real> SLIDEWAY_FN static Real touch_rounding(Parameters<Real> const&) { return Real(0.0); }
     template <class Real> SLIDEWAY_FN static Real touch_speed(Parameters<Real> const&) { return Real(1e4); }  // closed forms are of the state alone
     template <class Real> SLIDEWAY_HD static Real remembered(Real speed) { return speed; }
 
