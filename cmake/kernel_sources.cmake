@@ -41,7 +41,8 @@ file(STRINGS ${XSIMD}/xsimd/config/xsimd_config.hpp versions REGEX "define XSIMD
 string(REGEX REPLACE "[^0-9;]" "" versions "${versions}")
 list(JOIN versions "." xsimd_version)
 list(JOIN versions ", " xsimd_numbers)
-set(border host/backend/kernel_module.cpp host/backend/cpu_law.cpp host/backend/cpu_mechanism.cpp host/backend/cpu_lanes.cpp)
+set(border host/backend/kernel_module.cpp host/backend/cpu_law.cpp host/backend/cpu_mechanism.cpp host/backend/cpu_lanes.cpp
+    host/backend/cpu_linkage.cpp)
 file(GLOB rigid RELATIVE ${SOURCE} ${SOURCE}/kernels/rigid/*.hpp ${SOURCE}/kernels/mechanisms/*.hpp)
 closure(of_border ${border})
 closure(of_tree ${border} host/backend/cpu_rigid.cpp host/backend/cpu_rigid_joint.cpp ${rigid})

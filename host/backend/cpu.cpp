@@ -6,6 +6,7 @@
 #include "host/backend/backend.hpp"
 #include "host/backend/built_isas.hpp"
 #include "host/backend/kernel_modules.hpp"
+#include "host/backend/linkage_modules.hpp"
 #include "host/backend/own_modules.hpp"
 #include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/list.hpp"
@@ -129,7 +130,10 @@ MechanismKernels const& rigid_kernels(Isa isa, Mechanism mechanism, bool shadows
 
 KernelInstance find_instance(Isa isa, Parts const& parts, bool shadows) {
     BuiltIsa const& built = built_table[place_of(compiled_isa(isa))];
-    if (parts.linkage != nullptr) return {built.linkages, nullptr, parts};
+    if (parts.linkage != nullptr) {
+        MechanismKernels const* const compiled = compiled_linkage(parts, built.isa);
+        return {compiled != nullptr ? compiled : built.linkages, nullptr, parts};
+    }
     if (parts.rigid) return {&rigid_kernels(built.isa, parts.mechanism, shadows), nullptr, parts};
     auto const law_place = static_cast<std::size_t>(parts.law), place = static_cast<std::size_t>(parts.mechanism);
     KernelInstance const instance{

@@ -1,25 +1,39 @@
-// Linkages, equations and lanes, of members without shadows or with them: a unit each per instruction set (CMakeLists.txt here).
+// Linkages, equations and lanes, of members without shadows or with them: a unit each per instruction set (CMakeLists.txt here).  Their plans are looked up;
+// that which SLIDEWAY_HEADER has as SLIDEWAY_LINKAGE the compiler knows (module_compiler.cpp).
 #include "host/backend/kernel_tables.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/isa_real.hpp"
 #include "kernels/linkage/linkage_model.hpp"
 #include "kernels/models/probe.hpp"
 #include "kernels/models/shadowed.hpp"
+#ifdef SLIDEWAY_HEADER
+#include SLIDEWAY_HEADER
+#endif
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+#ifdef SLIDEWAY_HEADER
+using Model = LinkageModel<PlanConstant<SLIDEWAY_LINKAGE>>;
+static constexpr LinkagePlan const* known_plan = &SLIDEWAY_LINKAGE::plan;
+static constexpr bool turns_freely = SLIDEWAY_LINKAGE::turns_freely;
+#else
+using Model = LinkageModel<PlanTable>;
+static constexpr LinkagePlan const* known_plan = nullptr;
+static constexpr bool turns_freely = false;
+#define SLIDEWAY_TABLE linkage_kernels
+#endif
+
 #if SLIDEWAY_SHADOWED
-void run_shadowed_linkages(Block& block, Parts const& parts, LawKernels const*) {
-    using Model = Shadowed<LinkageModel>;
-    integrate<Model, IsaReal>(block, Model{LinkageModel(parts)});
-}
+void run_shadowed_linkages(Block& block, Parts const& parts, LawKernels const*) { integrate<Shadowed<Model>, IsaReal>(block, {Model(parts)}); }
 #else
 void run_shadowed_linkages(Block& block, Parts const& parts, LawKernels const*);
 
-extern constinit MechanismKernels const linkage_kernels = {
-    .run = [](Block& block, Parts const& parts, LawKernels const*) { integrate<LinkageModel, IsaReal>(block, LinkageModel(parts)); },
+extern constinit MechanismKernels const SLIDEWAY_TABLE = {
+    .run = [](Block& block, Parts const& parts, LawKernels const*) { integrate<Model, IsaReal>(block, Model(parts)); },
     .run_shadowed = &run_shadowed_linkages,
-    .probe = [](ProbeTable const& states, Parts const& parts, LawKernels const*) { probe<LinkageModel, IsaReal>(states, LinkageModel(parts)); },
+    .probe = [](ProbeTable const& states, Parts const& parts, LawKernels const*) { probe<Model, IsaReal>(states, Model(parts)); },
+    .linkage = known_plan,
+    .turns_freely = turns_freely,
 };
 #endif
 

@@ -3,6 +3,7 @@
 
 #include "kernels/block.hpp"
 #include "kernels/laws/law_info.hpp"
+#include "kernels/linkage/linkage_plan.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
 
 namespace slideway {
@@ -21,6 +22,8 @@ struct MechanismKernels {
     /// Members with shadows; none of a mechanism that has no exponents.  Of rigid contacts they have a table of their own, which has nothing else.
     void (*run_shadowed)(Block&, Parts const&, LawKernels const*) = nullptr;
     void (*probe)(ProbeTable const&, Parts const&, LawKernels const*) = nullptr;
+    LinkagePlan const* linkage = nullptr;  // that the compiler knew, and whether its crank turns freely
+    bool turns_freely = false;
 };
 
 /// The kernels of a scene's parts.

@@ -22,6 +22,7 @@
 #include "host/backend/module_files.hpp"
 #include "host/base/bytes.hpp"
 #include "host/base/child_process.hpp"
+#include "host/base/durable_file.hpp"
 #include "host/base/file_lock.hpp"
 #include "host/base/open_file.hpp"
 
@@ -143,7 +144,7 @@ void run_compiler(Toolchain const& tools, Words const& arguments, std::string co
 
 /// What a header says of itself.
 struct Offer {
-    std::optional<std::string> law, mechanism;
+    std::optional<std::string> law, mechanism, linkage;
     std::string source;  // its hash
     friend bool operator==(Offer const&, Offer const&) = default;
 };
@@ -213,8 +214,8 @@ Offer offer_of(Toolchain const& tools, Isa isa, std::string const& header, fs::p
     arguments.push_back(file.string());
     run_compiler(tools, arguments, header, work / "offer.log");
     std::string const defined = text_of(macros);
-    Offer const offer{definition(defined, "SLIDEWAY_LAW"), definition(defined, "SLIDEWAY_MECHANISM"), hash_of(tools, dependencies(text_of(rule)))};
-    if (!offer.law && !offer.mechanism)
+    Offer const offer{definition(defined, "SLIDEWAY_LAW"), definition(defined, "SLIDEWAY_MECHANISM"), definition(defined, "SLIDEWAY_LINKAGE"), hash_of(tools, dependencies(text_of(rule)))};
+    if (!offer.law && !offer.mechanism && !offer.linkage)
         throw SceneError(fmt::format("{}: it offers nothing; end it with `#define SLIDEWAY_LAW Type`, or `#define SLIDEWAY_MECHANISM Type`", header));
     return offer;
 }
@@ -264,6 +265,9 @@ Task task_of(Toolchain const& tools, ModuleKind kind, Isa isa, Offer const& offe
     };
     if (is_law) {
         add_unit("cpu_law.cpp", "", {});
+    } else if (kind == ModuleKind::linkage) {
+        add_unit("cpu_linkage.cpp", "", {"-DSLIDEWAY_SHADOWED=0"});
+        add_unit("cpu_linkage.cpp", "_shadowed", {"-DSLIDEWAY_SHADOWED=1"});
     } else {
         add_unit("cpu_mechanism.cpp", "", {});
         add_unit("cpu_lanes.cpp", "_lanes", {"-DSLIDEWAY_SHADOWED=0"});
@@ -277,7 +281,8 @@ Task task_of(Toolchain const& tools, ModuleKind kind, Isa isa, Offer const& offe
 void compile_all(Toolchain const& tools, std::vector<Task> const& tasks, int threads, std::string const& header, fs::path const& work) {
     std::vector<Words const*> tables, lanes, links;
     for (Task const& task : tasks) {
-        for (Words const& unit : task.units) (&unit == &task.units.front() ? tables : lanes).push_back(&unit);
+        bool const may_be_refused = task.kind != ModuleKind::linkage;
+        for (Words const& unit : task.units) (may_be_refused && &unit == &task.units.front() ? tables : lanes).push_back(&unit);
         links.push_back(&task.link);
     }
     for (auto const* const commands : {&tables, &lanes, &links}) {
@@ -344,26 +349,37 @@ void place(fs::path const& made, fs::path const& folder, ModuleKind kind, std::s
     }
 }
 
+/// The header's file, in a work folder where there is only its text.
+fs::path file_of(CompileRequest const& request, fs::path const& work) {
+    if (!request.text.empty()) {
+        fs::path const file = work / "header.hpp";
+        write_durably(file.string(), request.text);
+        return file;
+    }
+    require_file(request.header);
+    if (!is_file(request.header)) throw SceneError(fmt::format("{}: there is no such file", request.header));
+    std::error_code none;
+    return fs::canonical(request.header, none);
+}
+
 }  // namespace
 
 std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
     std::error_code none;
-    require_file(request.header);
-    if (!is_file(request.header)) throw SceneError(fmt::format("{}: there is no such file", request.header));
-    fs::path const file = fs::canonical(request.header, none);
+    WorkFolder const work;
+    fs::path const file = file_of(request, work.path());
     if (file.string().find_first_of("\"\\\n") != std::string::npos) throw SceneError(fmt::format("{}: a path with quotes or a backslash cannot be compiled", request.header));
     fs::path const folder = request.folder.empty() ? user_module_folder() : fs::absolute(request.folder, none);
     if (folder.empty()) throw SceneError("neither HOME nor XDG_CACHE_HOME says where modules go; give a folder with -o");
     require_writable(folder);
     std::vector<Isa> const isas = request.isas.empty() ? isas_here() : request.isas;
-    WorkFolder const work;
     Toolchain const tools = toolchain(work.path());
     Offer const offer = offer_of(tools, isas, request.header, file, work.path());
 
     std::vector<CompiledModule> all;
     std::vector<Task> tasks;
-    for (ModuleKind const kind : {ModuleKind::law, ModuleKind::mechanism}) {
-        if (!(kind == ModuleKind::law ? offer.law : offer.mechanism)) continue;
+    for (ModuleKind const kind : module_kinds) {
+        if (!(kind == ModuleKind::law ? offer.law : kind == ModuleKind::mechanism ? offer.mechanism : offer.linkage)) continue;
         CompiledModule& one = all.emplace_back(CompiledModule{kind, "", offer.source, {}, true});
         for (Isa const isa : isas) {
             if (auto const name = present(folder, kind, isa, offer.source)) {
@@ -385,7 +401,7 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
         std::string why;
         KernelModule const* const module = open_own_module(task.made, why);
         if (module == nullptr) throw DeviceError(why);
-        if (std::string const objection = request.objection(task.kind, *module); !objection.empty()) throw SceneError(fmt::format("{}: {}", request.header, objection));
+        if (std::string const objection = task.kind == ModuleKind::linkage ? "" : request.objection(task.kind, *module); !objection.empty()) throw SceneError(fmt::format("{}: {}", request.header, objection));
         names.emplace_back(name_of(task.kind, *module));
     }
     fs::create_directories(folder, none);

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/backend/linkage_modules.hpp"
 #include "host/backend/module_files.hpp"
 #include "host/base/open_file.hpp"
 
@@ -24,8 +25,8 @@ namespace fs = std::filesystem;
 /// What is open, for good: who has a place has it as long as the process lives.
 struct Opened {
     std::mutex access;
-    std::array<std::deque<OwnModule>, 2> modules;
-    std::array<std::atomic<std::size_t>, 2> counts;  // of them, for who does not wait
+    std::array<std::deque<OwnModule>, module_kinds.size()> modules;
+    std::array<std::atomic<std::size_t>, module_kinds.size()> counts;  // of them, for who does not wait
     std::map<std::pair<OwnModule const*, Isa>, KernelModule const*> kernels;
 };
 Opened& opened() {
@@ -68,6 +69,14 @@ std::vector<std::string_view> isas_in(fs::path const& folder, ModuleKind kind, s
 }
 
 }  // namespace
+
+std::string name_of(ModuleKind kind, KernelModule const& module) {
+    if (kind == ModuleKind::law) return module.law != nullptr ? std::string(module.law->info->name) : "";
+    MechanismKernels const* const kernels = module.mechanism;
+    if (kernels == nullptr) return "";
+    if (kind == ModuleKind::linkage) return kernels->linkage != nullptr ? linkage_module_name(*kernels->linkage, kernels->turns_freely) : "";
+    return kernels->info != nullptr && kernels->info->name != nullptr ? kernels->info->name : "";
+}
 
 std::string module_file_name(ModuleKind kind, std::string_view name, Isa isa) { return fmt::format("slideway_{}_{}_{}.so", name_of(kind), name, name_of(isa)); }
 

@@ -1,6 +1,8 @@
-// Laws and mechanisms of one's own: modules that `slideway compile` made, `slideway_<kind>_<name>_<isa>.so`, found by the names that a scene says.
+// Modules that `slideway compile` made, `slideway_<kind>_<name>_<isa>.so`: laws and mechanisms of one's own, found by the names that a scene says, and
+// linkages, found by their plans.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -14,15 +16,12 @@
 
 namespace slideway {
 
-enum class ModuleKind { law, mechanism };
-constexpr std::string_view name_of(ModuleKind kind) { return kind == ModuleKind::law ? "law" : "mechanism"; }
+enum class ModuleKind { law, mechanism, linkage };
+inline constexpr std::array module_kinds = {ModuleKind::law, ModuleKind::mechanism, ModuleKind::linkage};
+constexpr std::string_view name_of(ModuleKind kind) { return std::array{"law", "mechanism", "linkage"}[static_cast<std::size_t>(kind)]; }
 
-/// What a module calls its law or mechanism; "" of one that has none.
-inline std::string_view name_of(ModuleKind kind, KernelModule const& module) {
-    if (kind == ModuleKind::law) return module.law != nullptr ? module.law->info->name : std::string_view();
-    bool const has_name = module.mechanism != nullptr && module.mechanism->info != nullptr && module.mechanism->info->name != nullptr;
-    return has_name ? module.mechanism->info->name : std::string_view();
-}
+/// What a module calls its law, mechanism or linkage; "" of one that has none.
+std::string name_of(ModuleKind kind, KernelModule const& module);
 
 /// The instruction sets that this program has kernels of and this machine runs, the widest first.
 std::vector<Isa> isas_here();

@@ -225,7 +225,7 @@ void add_export(Options& options, ExportArguments& given) {
 }
 
 void add_compile(Options& options, CompileArguments& compile) {
-    options.positional("HEADER", compile.header, "Header with a contact law or a mechanism (docs/how_to/extending.md)")->required();
+    options.positional("SOURCE", compile.source, "Header with a contact law or a mechanism (docs/how_to/extending.md), or a scene with a linkage")->required();
     options.text("-o,--output", "DIR", compile.folder, "Folder of the modules, which a scene names in [modules] search (default: one that every scene finds)");
     options.value("--isa", "ISA,...", compile.isas, "Instruction sets (default: all of this program that this machine has)", [](std::string_view, std::string_view word) {
         std::vector<Isa> isas;
@@ -239,7 +239,7 @@ void add_compile(Options& options, CompileArguments& compile) {
     });
     options.threads(compile.threads);
     options.json(compile.json);
-    options.note("Compilers run as CXX names them, else the one that compiled slideway, else g++.  What scenes then know by name runs as the tree's own laws and mechanisms do.");
+    options.note("Compilers run as CXX names them, else the one that compiled slideway, else g++.  What scenes then know by name runs as the tree's own laws and mechanisms do; linkages with the bodies and joints of a scene, whatever their numbers, run faster.");
 }
 
 void add_list(Options& options, ListArguments& list) {

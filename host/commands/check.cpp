@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/backend/linkage_modules.hpp"
 #include "host/base/text.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
@@ -73,6 +74,12 @@ void print_parts(Scene const& scene) {
     auto const listed = [](auto const& names) { return names.empty() ? "no quantity" : fmt::format("{}", fmt::join(names, ", ")); };
     print_field("asked for", listed(asked));
     print_field("left out", listed(left));
+}
+
+/// Whether what bodies and joints there are is looked up.
+std::string linkage_text(Scene const& scene, Backend const& backend) {
+    bool const compiled = compiled_linkage(scene.parts, compiled_isa(parse_isa(backend.isa()))) != nullptr;
+    return compiled ? "compiled for these bodies and joints" : "for any bodies and joints; slideway compile makes faster ones for these";
 }
 
 std::string range_text(std::string const& least, std::string const& most) {
@@ -211,6 +218,7 @@ int execute(CheckArguments const& arguments) {
                                        counted(static_cast<std::uint64_t>(choice.backend->workers(threads)), "thread"),
                                        counted(prediction.largest_block, "member")));
     if (!choice.reason.empty()) print_field("", choice.reason);
+    if (scene.parts.linkage != nullptr) print_field("", linkage_text(scene, *choice.backend));
     OrbitSchedule const schedule = orbit_schedule(scene);
     std::string const length = schedule.by_turns       ? fmt::format("{:.6g} revolutions, for at most {:.6g} s", schedule.turns, schedule.end)
                                : scene.has_own_ends() ? fmt::format("{:.6g} revolutions of its own, {:.6g} s at most", scene.chaos.span.value, scene.integrator.end_time)

@@ -174,7 +174,7 @@ struct ExportArguments {
 int execute(ExportArguments const& arguments);
 
 struct CompileArguments {
-    std::string header;
+    std::string source;       // a header, or a scene with a linkage
     std::string folder;       // empty: the user's own
     std::vector<Isa> isas;    // none: all of this program that this machine runs
     int threads = default_threads();

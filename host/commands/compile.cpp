@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "host/backend/linkage_modules.hpp"
 #include "host/backend/module_compiler.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
@@ -12,6 +13,19 @@
 #include "host/run/stop.hpp"
 
 namespace slideway::cli {
+namespace {
+
+CompileRequest request_of(CompileArguments const& arguments) {
+    CompileRequest request{arguments.source, "", arguments.folder, arguments.isas, arguments.threads, &objection_to};
+    if (!arguments.source.ends_with(".toml")) return request;
+    Scene const scene = load_scene({arguments.source, {}});
+    if (scene.parts.linkage == nullptr)
+        throw SceneError(fmt::format("{}: its mechanism is compiled already; give a scene with mechanism.kind = \"linkage\", or a header", arguments.source));
+    request.text = linkage_header(scene.parts);
+    return request;
+}
+
+}  // namespace
 
 int execute(CompileArguments const& arguments) {
     std::vector<CompiledModule> modules;
@@ -19,7 +33,7 @@ int execute(CompileArguments const& arguments) {
     StopRequest stop;
     SignalScope const signals(stop);
     try {
-        modules = compile_modules({arguments.header, arguments.folder, arguments.isas, arguments.threads, &objection_to});
+        modules = compile_modules(request_of(arguments));
     } catch (CompileError const& error) {
         if (stop.reason() != StopReason::none) {
             tell("slideway: stopped early (signal): no module was made\n");

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/backend/linkage_modules.hpp"
+#include "host/backend/module_compiler.hpp"
 #include "host/base/bytes.hpp"
 #include "host/base/process.hpp"
 #include "host/commands/commands.hpp"
@@ -199,6 +201,20 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
     return conclude(arguments, scene, options, run.target().replaces(), std::move(report), &done);
 }
 
+/// A linkage that will run for minutes is compiled before, where that has not been done and can be: with the same bits in less time.
+void compile_before_long(Scene const& scene, StudyOptions const& options, Prediction const& prediction) {
+    constexpr double long_run = 60;  // [s]; compilers take half of that
+    bool const is_long = scene.parts.linkage != nullptr && options.backend->name() == "cpu" && prediction.least_seconds > long_run;
+    Isa const isa = compiled_isa(parse_isa(options.backend->isa()));
+    if (!is_long || compiled_linkage(scene.parts, isa) != nullptr) return;
+    tell("compiling the linkage, as slideway compile does: {} or more of integration are to come\n", duration_text(prediction.least_seconds));
+    try {
+        compile_modules({scene.path, linkage_header(scene.parts), "", {isa}, options.threads, nullptr});
+    } catch (std::exception const& error) {
+        tell("warning: {}; it runs by tables\n", error.what());
+    }
+}
+
 /// What rank 0 tells the others before they begin; empty if there is nothing to do.
 std::string invitation(StudyRun const& run, Backend const& backend) {
     if (run.is_complete()) return {};
@@ -260,6 +276,7 @@ int execute(RunArguments const& arguments) {
         StudyRun study(scene, options);
         warn_of_losses(options, study);
         if (arguments.shows_progress() && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
+        if (!study.is_complete()) compile_before_long(scene, options, prediction);
         invited = true;
         ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));

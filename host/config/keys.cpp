@@ -104,7 +104,7 @@ std::span<Key const* const> every_key() {
 
 std::string objection_to(ModuleKind kind, KernelModule const& module) {
     bool const is_law = kind == ModuleKind::law;
-    std::string_view const name = name_of(kind, module);
+    std::string const name = name_of(kind, module);
     auto const names = is_law ? law_names() : mechanism_names();
     auto const taken = std::ranges::find(names, name);
     bool const of_the_tree = taken != names.end() && (is_law ? module_of(static_cast<Law>(taken - names.begin())) == nullptr

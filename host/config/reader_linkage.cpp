@@ -296,22 +296,42 @@ private:
     /// Bodies whose mass centre and joints lie in one point.
     void find_points() {
         LinkagePlan& plan = linkage_->plan;
-        auto const is_origin = [](int const(&places)[2]) { return places[0] == none && places[1] == none; };
         for (int i = 0; i < plan.bodies; ++i) {
             LinkageBody& of = plan.body[i];
-            of.is_point = of.joint == TreeJoint::revolute && is_origin(of.center) && is_origin(of.own);
+            of.arm = arm_of(of.parent, of.on_parent);
+            of.moment = arm_of(i, of.center);
+        }
+        for (int i = 0; i < plan.bodies; ++i) {
+            LinkageBody const& of = plan.body[i];
+            if (of.joint == TreeJoint::revolute && of.parent != ground) plan.body[of.parent].moment = std::max(plan.body[of.parent].moment, of.arm);
+        }
+        for (int i = 0; i < plan.bodies; ++i) {
+            LinkageBody& of = plan.body[i];
+            of.is_point = of.joint == TreeJoint::revolute && of.moment == Arm::none;
             for (int k = 0; k < plan.bodies; ++k) {
-                bool const hangs_off = plan.body[k].parent == i && (plan.body[k].joint != TreeJoint::revolute || !is_origin(plan.body[k].on_parent));
-                of.is_point = of.is_point && !hangs_off;
-            }
-            for (int k = 0; k < plan.closures; ++k) {
-                LinkageClosure const& closure = plan.closure[k];
-                for (int side = 0; side < 2; ++side) {
-                    bool const is_walls = closure.kind == ClosureKind::block && side == 1;
-                    if (closure.body[side] == i && (is_walls || !is_origin(closure.point[side]))) of.is_point = false;
-                }
+                if (plan.body[k].parent == i && plan.body[k].joint != TreeJoint::revolute) of.is_point = 0;
             }
         }
+        for (int k = 0; k < plan.closures; ++k) {
+            LinkageClosure& closure = plan.closure[k];
+            for (int side = 0; side < 2; ++side) {
+                int const body = closure.body[side];
+                bool const is_walls = closure.kind == ClosureKind::block && side == 1;
+                closure.arm[side] = arm_of(body, closure.point[side]);
+                if (body != ground && (is_walls || closure.arm[side] != Arm::none)) plan.body[body].is_point = 0;
+            }
+            closure.is_level = closure.body[1] == ground && closure.direction == none;
+        }
+    }
+
+    /// Of a point from a body's origin: its joint's point, its mass centre where it floats.
+    Arm arm_of(int body, int const (&at)[2]) const {
+        constexpr int origin[2] = {none, none};
+        LinkageBody const* const of = body == ground ? nullptr : &linkage_->plan.body[body];
+        auto const& from = of == nullptr ? origin : of->joint == TreeJoint::floating ? of->center : of->own;
+        if (at[0] == none && at[1] == none && from[0] == none && from[1] == none) return Arm::none;
+        bool const turns = of != nullptr && of->joint == TreeJoint::prismatic;  // its axes are those of another body
+        return at[1] == none && from[1] == none && !turns ? Arm::along_x : Arm::any;
     }
 
     /// A block has a quad of pairs to itself; journals share what is left.

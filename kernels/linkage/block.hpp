@@ -12,17 +12,21 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Where a block is between its walls, in axes along and across them that turn with their body: along X, across Y, with a tilt, and the rates of that
 /// as the walls' body sees them.
-template <class Real> struct BlockPose {
+/// @tparam Motion LinkageMotion
+template <class Motion> struct BlockPose {
+    using Real = typename Motion::Real;
     LinkagePoint<Real> centre, middle;  // of the block, and of the walls
     Vec2<Real> along;                   // the walls
     Vec2<Real> place, velocity;
     Real tilt, spin;
+    bool is_level;
 
-    SLIDEWAY_FN BlockPose(LinkageMotion<Real> const& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, int closure) {
-        auto const& of = plan.closure[closure];
-        auto const& numbers = p.closure[closure];
-        centre = motion.point(of.body[0], numbers.point[0]);
-        middle = motion.point(of.body[1], numbers.point[1]);
+    SLIDEWAY_FN BlockPose(Motion const& motion, int closure) {
+        auto const& of = motion.plan()->closure[closure];
+        auto const& numbers = motion.numbers().closure[closure];
+        is_level = of.is_level;
+        centre = motion.point(of.body[0], numbers.point[0], of.arm[0]);
+        middle = motion.point(of.body[1], numbers.point[1], of.arm[1]);
         Real const turning = motion.spin(of.body[1]);
         along = motion.direction(of.body[1], numbers.along);
         auto const apart = centre.place - middle.place;
@@ -31,30 +35,32 @@ template <class Real> struct BlockPose {
         tilt = motion.angle(of.body[0]) - (motion.angle(of.body[1]) + numbers.direction);
         spin = motion.spin(of.body[0]) - turning;
     }
-    SLIDEWAY_FN Vec2<Real> to_walls(Vec2<Real> const& v) const { return {dot(along, v), cross(along, v)}; }
+    SLIDEWAY_FN Vec2<Real> to_walls(Vec2<Real> const& v) const { return is_level ? v : Vec2<Real>{dot(along, v), cross(along, v)}; }
+    SLIDEWAY_FN Vec2<Real> from_walls(Real x, Real y) const { return is_level ? Vec2<Real>{x, y} : add(x * along, y, normal()); }
     SLIDEWAY_FN Vec2<Real> normal() const { return across(along); }
 };
 
 /// A block of one body between two walls of another: corners as those of the planar slider-crank, with its point law (model.md 7).
-template <class Real> struct BlockInWalls {
+template <class Motion> struct BlockInWalls {
+    using Real = typename Motion::Real;
     int closure;
-    BlockPose<Real> pose;
+    BlockPose<Motion> pose;
     PlanarCorners<Real> corners;
 
-    SLIDEWAY_FN BlockInWalls(LinkageMotion<Real> const& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, int at)
-        : closure(at), pose(motion, plan, p, at), corners(pose.place.y, pose.velocity.y, pose.tilt, pose.spin, p.closure[at]) {}
+    SLIDEWAY_FN BlockInWalls(Motion const& motion, int at)
+        : closure(at), pose(motion, at), corners(pose.place.y, pose.velocity.y, pose.tilt, pose.spin, motion.numbers().closure[at]) {}
 
     /// Pushes both bodies.  @param v0 δ' of the corners' last touches, where those count  @param told what a report has of the contact; nullptr: nothing
-    SLIDEWAY_FN void push(LinkageMotion<Real>& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, Quad<Real> const& v0, bool remembers,
-                          bool has_friction, LinkageContact<Real>* told) const {
-        auto const& of = plan.closure[closure];
+    SLIDEWAY_FN void push(Motion& motion, Quad<Real> const& v0, bool remembers, bool has_friction, LinkageContact<Real>* told) const {
+        auto const& of = motion.plan()->closure[closure];
+        auto const& p = motion.numbers();
         auto const& numbers = p.closure[closure];
         auto const elastic = corners.loads(numbers.contact);
         auto const force = corners.damped(elastic, v0, numbers.contact, p.damping, remembers);
         auto total = corners.push_of_nothing();
         corners.add_normal(force, total);
         Real const loss = has_friction ? corners.add_friction(force, pose.velocity.x, p, total) : Real(0.0);
-        auto const pushed = add(total.fx * pose.along, total.fy, pose.normal());
+        auto const pushed = pose.from_walls(total.fx, total.fy);
         // Both at the block's centre.
         auto const at_walls = pose.middle.arm + (pose.centre.place - pose.middle.place);
         motion.push(of.body[0], pose.centre.arm, pushed);

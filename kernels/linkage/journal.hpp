@@ -12,32 +12,35 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///   δ = |e| − c,  δ' = e·e'/|e|,  F = K δⁿ and its damping, along −e/|e| on the journal, at its point that is next to the bearing;
 /// friction −μ(|v|) F v/|v| there, v = ⊥e/|e| · (e' − ω_B ⊥e) + R_A (ω_A − ω_B), so that no couple is left over and its power is −μ F |v|.
 /// Source: docs/explanation/linkages.md, after Flores, Ambrósio, Claro and Lankarani (2008).
-template <class Real> struct Journal {
+/// @tparam Motion LinkageMotion
+template <class Motion> struct Journal {
+    using Real = typename Motion::Real;
     int closure;
     LinkagePoint<Real> pin, hole;
     Vec2<Real> outward;  // e/|e|
     Real distance, depth, rate;
 
-    SLIDEWAY_FN Journal(LinkageMotion<Real> const& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, int at) : closure(at) {
-        auto const& of = plan.closure[at];
-        pin = motion.point(of.body[0], p.closure[at].point[0]);
-        hole = motion.point(of.body[1], p.closure[at].point[1]);
+    SLIDEWAY_FN Journal(Motion const& motion, int at) : closure(at) {
+        auto const& of = motion.plan()->closure[at];
+        auto const& numbers = motion.numbers().closure[at];
+        pin = motion.point(of.body[0], numbers.point[0], of.arm[0]);
+        hole = motion.point(of.body[1], numbers.point[1], of.arm[1]);
         auto const e = pin.place - hole.place;
         distance = sqrt(max(dot(e, e), Real(1e-60)));
         Real const inverse = Real(1.0) / distance;
         outward = inverse * e;
-        depth = distance - p.closure[at].clearance;
+        depth = distance - numbers.clearance;
         rate = dot(outward, pin.velocity - hole.velocity);
     }
 
     /// Pushes both bodies.  @param v0 δ' of the last touch, where that counts  @param told what a report has of the contact; nullptr: nothing
-    SLIDEWAY_FN void push(LinkageMotion<Real>& motion, LinkagePlan const& plan, LinkageParameters<Real> const& p, Real v0, bool remembers, bool has_friction,
-                          LinkageContact<Real>* told) const {
+    SLIDEWAY_FN void push(Motion& motion, Real v0, bool remembers, bool has_friction, LinkageContact<Real>* told) const {
         Real const zero(0.0), one(1.0);
+        auto const& p = motion.numbers();
         auto const& numbers = p.closure[closure];
         Real const elastic = pair_load(depth, numbers.contact);
         Real const force = pair_force(elastic, depth, rate, v0, numbers.contact, p.damping, remembers);
-        auto const& of = plan.closure[closure];
+        auto const& of = motion.plan()->closure[closure];
         auto pushed = negated(force) * outward;
         Real loss = zero;
         if (has_friction) {

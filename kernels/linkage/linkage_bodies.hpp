@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/linkage/linkage_parameters.hpp"
-#include "kernels/linkage/linkage_plan.hpp"
+#include "kernels/linkage/linkage_plans.hpp"
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/math/vec2.hpp"
 #include "kernels/mechanisms/crank_motion.hpp"
@@ -15,25 +15,31 @@ template <class Real> struct LinkagePoint { Vec2<Real> arm, place, velocity, acc
 
 /// The bodies of a linkage in a state, from the ground outwards, and what acts on them (docs/explanation/linkages.md).
 /// Place and rate of coordinate i are numbers 2i and 2i + 1 of the state.
-template <class Real> class LinkageBodies {
+/// @tparam Plan PlanTable or a PlanConstant
+template <class Plan, class Number> class LinkageBodies {
 public:
+    using Real = Number;
     using Vector = Vec2<Real>;
 
     /// @param crank angle, speed and acceleration of coordinate 0, where a drive gives them (`driven`)
-    SLIDEWAY_FN LinkageBodies(LinkagePlan const& plan, LinkageParameters<Real> const& p, Real const* s, bool driven, GivenMotion<Real> const& crank)
+    SLIDEWAY_FN LinkageBodies(Plan plan, LinkageParameters<Real> const& p, Real const* s, bool driven, GivenMotion<Real> const& crank)
         : plan_(plan), p_(p) {
-        for (int i = 0; i < plan.coordinates; ++i) {
+        plan.up(plan->coordinates, [&](int i) SLIDEWAY_INLINED {
             place_[i] = s[2 * i];
             rate_[i] = s[2 * i + 1];
-        }
+        });
         if (driven) place_[0] = crank.place, rate_[0] = crank.velocity;
-        for (int i = 0; i < plan.bodies; ++i) carry(plan.body[i], i, driven && i == 0 ? crank.acceleration : Real(0.0));
+        plan.up(plan->bodies, [&](int i) SLIDEWAY_INLINED { carry(plan->body[i], i, driven && i == 0 ? crank.acceleration : Real(0.0)); });
     }
 
-    SLIDEWAY_FN LinkagePoint<Real> point(int body, Vector const& local) const {
+    SLIDEWAY_FN Plan plan() const { return plan_; }
+    SLIDEWAY_FN LinkageParameters<Real> const& numbers() const { return p_; }
+
+    SLIDEWAY_FN LinkagePoint<Real> point(int body, Vector const& local, Arm at = Arm::any) const {
         if (body == LinkageBody::ground) return {local, local, {Real(0.0), Real(0.0)}, {negated(p_.gravity.x), negated(p_.gravity.y)}};
         Body const& b = body_[body];
-        auto const arm = turned(b.turn, local), aside = across(arm);
+        if (at == Arm::none) return {{Real(0.0), Real(0.0)}, b.place, b.velocity, b.acceleration};
+        auto const arm = along_ground(b.turn, local, at), aside = across(arm);
         return {arm, b.place + arm, add(b.velocity, b.spin, aside), add(add(b.acceleration, negated(b.spin * b.spin), arm), b.spin_rate, aside)};
     }
     SLIDEWAY_FN Real spin(int body) const { return body == LinkageBody::ground ? Real(0.0) : body_[body].spin; }
@@ -56,59 +62,38 @@ public:
     }
     /// The two points of a closure, the first one's less the second one's.
     SLIDEWAY_FN LinkagePoint<Real> apart(int closure) const {
-        auto const& of = plan_.closure[closure];
+        auto const& of = plan_->closure[closure];
         auto const& numbers = p_.closure[closure];
-        auto const a = point(of.body[0], numbers.point[0]), b = point(of.body[1], numbers.point[1]);
+        auto const a = point(of.body[0], numbers.point[0], of.arm[0]), b = point(of.body[1], numbers.point[1], of.arm[1]);
         return {a.arm - b.arm, a.place - b.place, a.velocity - b.velocity, a.acceleration - b.acceleration};
     }
 
     /// Rows of a pin or a journal: what its gap along X and along Y changes by with each coordinate.
     SLIDEWAY_FN void put_rows(int closure, Real* along_x, Real* along_y) const {
-        for (int c = 0; c < plan_.coordinates; ++c) along_x[c] = along_y[c] = Real(0.0);
-        for (int side = 0; side < 2; ++side) {
-            int body = plan_.closure[closure].body[side];
-            auto lever = point(body, p_.closure[closure].point[side]).arm;
-            Real const sign(side == 0 ? 1.0 : -1.0);
-            for (; body != LinkageBody::ground; body = plan_.body[body].parent) {
-                LinkageBody const& at = plan_.body[body];
-                int c = at.coordinate;
-                if (at.joint == TreeJoint::prismatic) {
-                    along_x[c] = fma(sign, body_[body].along.x, along_x[c]);
-                    along_y[c] = fma(sign, body_[body].along.y, along_y[c]);
-                } else {
-                    if (at.joint == TreeJoint::floating) {
-                        along_x[c] = along_x[c] + sign;
-                        along_y[c + 1] = along_y[c + 1] + sign;
-                        c = c + 2;
-                    }
-                    along_x[c] = fnma(sign, lever.y, along_x[c]);
-                    along_y[c] = fma(sign, lever.x, along_y[c]);
-                    lever = {Real(0.0), Real(0.0)};  // angles are absolute: what hangs here turns nothing that stands below
-                }
-                lever = lever + body_[body].from_below;
-            }
-        }
+        plan_.up(plan_->coordinates, [&](int c) SLIDEWAY_INLINED { along_x[c] = along_y[c] = Real(0.0); });
+        add_rows(closure, 0, Real(1.0), along_x, along_y);
+        add_rows(closure, 1, Real(-1.0), along_x, along_y);
     }
     /// Adds what the motion of a body's point along a direction changes by with each coordinate.
     SLIDEWAY_FN void add_row(int body, Vector const& arm, Vector const& direction, Real* row) const {
-        climb(body, direction, cross(arm, direction), [row](int c, Real x) { row[c] = row[c] + x; });
+        climb(body, direction, cross(arm, direction), [row](int c, Real x) SLIDEWAY_INLINED { row[c] = row[c] + x; });
     }
     /// Adds the coordinates that turn a body, times a sign.
     SLIDEWAY_FN void add_turn(int body, Real sign, Real* row) const {
-        climb(body, {Real(0.0), Real(0.0)}, sign, [row](int c, Real x) { row[c] = row[c] + x; });
+        climb(body, {Real(0.0), Real(0.0)}, sign, [row](int c, Real x) SLIDEWAY_INLINED { row[c] = row[c] + x; });
     }
 
     /// Kinetic energy, and that of the weight [J].
     SLIDEWAY_FN Real energy() const {
         Real const half(0.5);
         Real sum(0.0);
-        for (int i = 0; i < plan_.bodies; ++i) {
+        plan_.up(plan_->bodies, [&](int i) SLIDEWAY_INLINED {
             auto const& numbers = p_.body[i];
             auto const center = point(i, numbers.center);
             Real const speeds = fma(numbers.mass, dot(center.velocity, center.velocity), numbers.inertia * (body_[i].spin * body_[i].spin));
             sum = sum + fnma(numbers.mass, dot(p_.gravity, center.place), half * speeds);
-        }
-        if (plan_.is_driven) sum = fma(half * p_.flywheel, rate_[0] * rate_[0], sum);
+        });
+        if (plan_->is_driven) sum = fma(half * p_.flywheel, rate_[0] * rate_[0], sum);
         return sum;
     }
 
@@ -127,26 +112,56 @@ protected:
 
     /// Has a function see the generalised force, on each coordinate from a body towards the ground, of a force through its origin and a torque.
     template <class See> SLIDEWAY_FN void climb(int body, Vector const& force, Real torque, See const& see) const {
-        for (; body != LinkageBody::ground; body = plan_.body[body].parent) {
-            LinkageBody const& at = plan_.body[body];
+        plan_.bodies_from(body, [&](int i) SLIDEWAY_INLINED {
+            LinkageBody const& at = plan_->body[i];
             int const c = at.coordinate;
-            if (at.joint == TreeJoint::floating) {
+            if (at.joint == TreeJoint::floating) {  // on the ground: the last
                 see(c, force.x);
                 see(c + 1, force.y);
                 see(c + 2, torque);
                 return;
             }
             if (at.joint == TreeJoint::prismatic) {
-                see(c, dot(body_[body].along, force));
+                see(c, dot(body_[i].along, force));
             } else {
                 see(c, torque);
                 torque = Real(0.0);  // angles are absolute: those above turn nothing below
             }
-            torque = torque + cross(body_[body].from_below, force);
-        }
+            torque = torque + cross(body_[i].from_below, force);
+        });
     }
 
 private:
+    /// What stands along a body's axes, along the ground's.
+    SLIDEWAY_FN static Vector along_ground(SinCos<Real> const& turn, Vector const& of, Arm arm) {
+        if (arm == Arm::none) return {Real(0.0), Real(0.0)};
+        if (arm == Arm::along_x) return {turn.cos * of.x, turn.sin * of.x};
+        return turned(turn, of);
+    }
+
+    /// Adds the share of a closure's first or second body, times a sign.
+    SLIDEWAY_FN void add_rows(int closure, int side, Real sign, Real* along_x, Real* along_y) const {
+        int const body = plan_->closure[closure].body[side];
+        auto lever = point(body, p_.closure[closure].point[side], plan_->closure[closure].arm[side]).arm;
+        plan_.bodies_from(body, [&](int i) SLIDEWAY_INLINED {
+            LinkageBody const& at = plan_->body[i];
+            int c = at.coordinate;
+            if (at.joint == TreeJoint::prismatic) {
+                along_x[c] = fma(sign, body_[i].along.x, along_x[c]);
+                along_y[c] = fma(sign, body_[i].along.y, along_y[c]);
+            } else {
+                if (at.joint == TreeJoint::floating) {
+                    along_x[c] = along_x[c] + sign;
+                    along_y[c + 1] = along_y[c + 1] + sign;
+                    c = c + 2;
+                }
+                along_x[c] = fnma(sign, lever.y, along_x[c]);
+                along_y[c] = fma(sign, lever.x, along_y[c]);
+                lever = {Real(0.0), Real(0.0)};  // angles are absolute: what hangs here turns nothing that stands below
+            }
+            lever = lever + body_[i].from_below;
+        });
+    }
     /// From the body below to one.
     SLIDEWAY_FN void carry(LinkageBody const& of, int index, Real spin_rate) {
         Real const zero(0.0);
@@ -169,7 +184,7 @@ private:
                 if (slides) b.along = numbers.along;
             } else {
                 Body const& below = body_[of.parent];
-                b.from_below = turned(below.turn, arm);
+                b.from_below = along_ground(below.turn, arm, slides ? Arm::any : of.arm);
                 b.place = below.place + b.from_below;
                 auto const aside = across(b.from_below);
                 b.velocity = add(below.velocity, below.spin, aside);
@@ -192,16 +207,16 @@ private:
             b.spin = rate_[own];
             b.turn = of.is_point ? SinCos<Real>{zero, Real(1.0), zero} : sincos(b.angle);
         }
-        b.hung_moment = of.is_point ? Vector{zero, zero} : turned(b.turn, numbers.hung_moment);
+        b.hung_moment = along_ground(b.turn, numbers.hung_moment, slides || floats ? Arm::any : of.moment);
         b.hung_inertia = numbers.hung_inertia;
         b.held = {zero, zero};
         b.moment = zero;
     }
 
 protected:
-    LinkagePlan const& plan_;
+    [[no_unique_address]] Plan const plan_;
     LinkageParameters<Real> const& p_;
-    Real place_[LinkagePlan::most_coordinates], rate_[LinkagePlan::most_coordinates];
+    Real place_[Plan::most_coordinates], rate_[Plan::most_coordinates];
     Body body_[LinkagePlan::most_bodies];
 };
 

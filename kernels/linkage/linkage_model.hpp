@@ -7,7 +7,7 @@
 #include "kernels/linkage/journal.hpp"
 #include "kernels/linkage/linkage_motion.hpp"
 #include "kernels/linkage/linkage_parameters.hpp"
-#include "kernels/linkage/linkage_plan.hpp"
+#include "kernels/linkage/linkage_plans.hpp"
 #include "kernels/linkage/linkage_report.hpp"
 #include "kernels/linkage/linkage_start.hpp"
 #include "kernels/mechanisms/faults.hpp"
@@ -23,10 +23,11 @@ struct LawOfPoints {
     SLIDEWAY_HD static constexpr bool continuous() { return true; }
 };
 
-/// A linkage as the lanes integrate it: its plan is looked up, the same for all members of a block.
-struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints> {
+/// A linkage as the lanes integrate it: its plan is the same for all members of a block.
+/// @tparam Plan PlanTable or a PlanConstant
+template <class Plan> struct LinkageModel : ContactLanes<LinkageModel<Plan>>, ConditionsOfBlock<LawOfPoints> {
     using Inputs = slideway::Inputs;
-    static constexpr int size = LinkagePlan::most_states, series = linkage_series_count;
+    static constexpr int size = 2 * Plan::most_coordinates, series = linkage_series_count;
     static constexpr int crank_state[] = {0, 1};
     static constexpr bool has_patterns = false, has_linearisation = false;
     template <class Real> using Parameters = LinkageParameters<Real>;
@@ -36,17 +37,19 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
     template <class Real> using Watch = ContactWatch<Real, LinkageContact<Real>::quads>;
     template <class Real> using Accelerations = NoRecord<Keeper::accelerations>;
 
-    LinkagePlan const* plan = nullptr;
+    template <class Real> using Motion = LinkageMotion<Plan, Real>;
 
-    explicit constexpr LinkageModel(Parts const& parts) : ConditionsOfBlock<LawOfPoints>{{}, {{}, false, parts}}, plan(parts.linkage) {}
+    Plan plan;
+
+    explicit constexpr LinkageModel(Parts const& parts) : ConditionsOfBlock<LawOfPoints>{{}, {{}, false, parts}}, plan(*parts.linkage) {}
 
     SLIDEWAY_HD int states() const { return plan->states(); }
     SLIDEWAY_HD int state_of_series(int column) const { return column < plan->states() ? column : -1; }
-    SLIDEWAY_HD bool is_driven() const { return plan->is_driven && !this->block.drive.turns_freely(); }
+    SLIDEWAY_HD bool is_driven() const { return plan.is_given(this->block.drive); }
     SLIDEWAY_HD unsigned prescribed() const { return is_driven() ? 0b11u : 0u; }
-    SLIDEWAY_HD LinkageParameters<double> parameters(Inputs const& in) const { return linkage_parameters(*plan, in); }
+    SLIDEWAY_HD LinkageParameters<double> parameters(Inputs const& in) const { return linkage_parameters(*plan.operator->(), in); }
     SLIDEWAY_HD void initial_state(Inputs const& in, double* state) const {
-        put_linkage_start(*plan, in, state);
+        put_linkage_start(*plan.operator->(), in, state);
     }
     SLIDEWAY_HD void scales(LinkageParameters<double> const& p, double* scale) const {
         for (int c = 0; c < plan->coordinates; ++c) {
@@ -68,10 +71,10 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
                                               ContactMemory<Real, LinkageContact<Real>::quads> const& memory, Real* rates, LinkageReport<Real>* report) const {
         bool const driven = is_driven();
         auto const crank = crank_of(t, s, p);
-        LinkageMotion<Real> motion(*plan, p, s, driven, crank);
+        Motion<Real> motion(plan, p, s, driven, crank);
         LinkageContact<Real>* told = nullptr;
         if constexpr (Full) told = &report->contact, told->start();
-        push(motion, p, memory, told);
+        push(motion, memory, told);
         Real motor(0.0);
         if (plan->is_driven && !driven) {
             motor = motor_torque(this->block.drive, p.motor, t + p.start_time, crank.place, crank.velocity);
@@ -80,12 +83,12 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
         motion.gather();
         auto faults = Faults<Real>::none();
         faults.geometry = motion.close_loops();
-        Real acceleration[LinkagePlan::most_coordinates];
+        Real acceleration[Plan::most_coordinates];
         motion.accelerate(acceleration);
-        for (int c = 0; c < plan->coordinates; ++c) {
+        plan.up(plan->coordinates, [&](int c) SLIDEWAY_INLINED {
             rates[2 * c] = motion.rate(c);
             rates[2 * c + 1] = acceleration[c];
-        }
+        });
         if (driven) rates[1] = crank.acceleration;
         if constexpr (Full) tell(motion, acceleration, driven, crank, motor, *report);
         return faults;
@@ -95,7 +98,7 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
     template <class Real>
     SLIDEWAY_NOINLINE void project(Mask<Real> in, Real t, Real* s, LinkageParameters<Real> const& p) const {
         if (plan->loops() == 0) return;
-        LinkageMotion<Real> motion(*plan, p, s, is_driven(), crank_of(t, s, p));
+        Motion<Real> motion(plan, p, s, is_driven(), crank_of(t, s, p));
         motion.gather();
         auto const singular = motion.close_loops();
         motion.project(in & !singular, s);
@@ -103,16 +106,19 @@ struct LinkageModel : ContactLanes<LinkageModel>, ConditionsOfBlock<LawOfPoints>
 
     /// Gap of a pair: its penetration negated [m].
     template <class Real> SLIDEWAY_FN Real gap(Real t, Real const* s, LinkageParameters<Real> const& p, bool, int pair) const {
-        LinkageMotion<Real> const motion(*plan, p, s, is_driven(), crank_of(t, s, p));
+        Motion<Real> const motion(plan, p, s, is_driven(), crank_of(t, s, p));
         Real depth(-1.0);
-        for (int k = 0; k < plan->closures; ++k) {
+        plan.up(plan->closures, [&](int k) SLIDEWAY_INLINED {
             LinkageClosure const& of = plan->closure[k];
             int const own = pair - of.pair;
-            if (own < 0 || own >= of.pairs()) continue;
-            if (of.kind == ClosureKind::journal) return negated(Journal<Real>(motion, *plan, p, k).depth);
-            auto const corners = BlockInWalls<Real>(motion, *plan, p, k).corners.depth;
-            depth = own == 0 ? corners.a : own == 1 ? corners.b : own == 2 ? corners.c : corners.d;
-        }
+            if (own < 0 || own >= of.pairs()) return;
+            if (of.kind == ClosureKind::journal) {
+                depth = Journal<Motion<Real>>(motion, k).depth;
+            } else {
+                auto const corners = BlockInWalls<Motion<Real>>(motion, k).corners.depth;
+                depth = own == 0 ? corners.a : own == 1 ? corners.b : own == 2 ? corners.c : corners.d;
+            }
+        });
         return negated(depth);
     }
 
@@ -123,34 +129,34 @@ private:
     }
 
     template <class Real, class Memory>
-    SLIDEWAY_FN void push(LinkageMotion<Real>& motion, LinkageParameters<Real> const& p, Memory const& memory, LinkageContact<Real>* told) const {
+    SLIDEWAY_FN void push(Motion<Real>& motion, Memory const& memory, LinkageContact<Real>* told) const {
         using Contact = LinkageContact<Real>;
-        for (int k = 0; k < plan->closures; ++k) {
+        plan.up(plan->closures, [&](int k) SLIDEWAY_INLINED {
             LinkageClosure const& of = plan->closure[k];
             if (of.kind == ClosureKind::journal) {
-                Journal<Real> const journal(motion, *plan, p, k);
+                Journal<Motion<Real>> const journal(motion, k);
                 if (told != nullptr) {
                     Contact::at(told->penetration, of.pair) = journal.depth;
                     Contact::at(told->rate, of.pair) = journal.rate;
                     told->offset[k] = journal.distance * journal.outward;
                 }
-                if (none(journal.depth > Real(0.0))) continue;
-                journal.push(motion, *plan, p, Contact::at(memory.impact_speed, of.pair), this->block.remembers, this->block.friction, told);
+                if (none(journal.depth > Real(0.0))) return;
+                journal.push(motion, Contact::at(memory.impact_speed, of.pair), this->block.remembers, this->block.friction, told);
             } else if (of.kind == ClosureKind::block) {
-                BlockInWalls<Real> const block(motion, *plan, p, k);
+                BlockInWalls<Motion<Real>> const block(motion, k);
                 if (told != nullptr) {
                     told->penetration[of.pair / 4] = block.corners.depth;
                     told->rate[of.pair / 4] = block.corners.rate;
                     told->offset[k] = {block.pose.place.y, block.pose.tilt};
                 }
-                if (none(block.corners.deepest() > Real(0.0))) continue;
-                block.push(motion, *plan, p, memory.impact_speed[of.pair / 4], this->block.remembers, this->block.friction, told);
+                if (none(block.corners.deepest() > Real(0.0))) return;
+                block.push(motion, memory.impact_speed[of.pair / 4], this->block.remembers, this->block.friction, told);
             }
-        }
+        });
     }
 
     template <class Real>
-    SLIDEWAY_FN void tell(LinkageMotion<Real> const& motion, Real const* acceleration, bool driven, GivenMotion<Real> const& crank, Real motor,
+    SLIDEWAY_FN void tell(Motion<Real> const& motion, Real const* acceleration, bool driven, GivenMotion<Real> const& crank, Real motor,
                           LinkageReport<Real>& report) const {
         Real const zero(0.0);
         report.x = report.vx = report.top = report.front = report.position_error = report.rod_spin = zero;

@@ -2,6 +2,8 @@
 // Plain data outside the ISA namespace: every unit may share it.
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/inputs.hpp"
 
 namespace slideway {
@@ -13,7 +15,11 @@ enum class TreeJoint {
     floating,   // three, the place of its mass centre and its absolute angle
 };
 
-/// Places are those of numbers among Inputs::linkage_0 …; `none` where a number is not given, which then is 0.
+/// How far a scene lets a point of a body be from its body's origin: not at all, along its X axis, anywhere.
+enum class Arm { none, along_x, any };
+
+/// Places are those of numbers among Inputs::linkage_0 …; `none` where a number is not given, which then is 0.  A plan is made of ints alone, and compared
+/// and written down as such.
 struct LinkageBody {
     static constexpr int none = -1, ground = -1;
 
@@ -25,7 +31,9 @@ struct LinkageBody {
     int on_parent[2] = {none, none}, own[2] = {none, none};  // the joint's point, in the axes of either [m]
     int direction = none;  // of the line that a prismatic joint leads along, from the X axis of the body below [rad]
     int turn = none;       // angle of its body against that one [rad]
-    bool is_point = false;  // all that it carries is at its joint: nothing asks where its axes point
+    Arm arm = Arm::any;     // of the joint's point on the body below
+    Arm moment = Arm::any;  // of the mass centre, and of what hangs on it by revolutes
+    int is_point = 0;  // 1: all that it carries is at its joint: nothing asks where its axes point
     int angle = none, speed = none;  // where Newton's method looks for its start [rad], [rad/s]; of a prismatic joint [m], [m/s]
 };
 
@@ -42,6 +50,8 @@ struct LinkageClosure {
     ClosureKind kind = ClosureKind::pin;
     int body[2] = {LinkageBody::ground, LinkageBody::ground};  // that of the journal or block, and that of the bearing or walls
     int point[2][2] = {{none, none}, {none, none}};            // centres, in the axes of either; of walls a point in their middle [m]
+    Arm arm[2] = {Arm::any, Arm::any};     // of these
+    int is_level = 0;                      // 1: walls along the ground's X axis
     int pair = 0;                          // its first among the pairs that touch: a journal is one, a block's corners are four
     int clearance = none;                  // difference of the radii, or a block's on each side [m]
     int radius = none;                     // of the bearing [m]
@@ -66,7 +76,7 @@ struct LinkagePlan {
     LinkageClosure closure[most_closures];
     int above[most_coordinates] = {};  // of a coordinate the next one towards the ground; −1 where there is none
     int owner[most_coordinates] = {};  // the body that a coordinate is of
-    bool is_driven = false;            // coordinate 0 is the angle of the crank
+    int is_driven = 0;                 // 1: coordinate 0 is the angle of the crank
 
     constexpr int states() const { return 2 * coordinates; }
     /// How many of the closures are loops without clearance.
@@ -82,5 +92,6 @@ struct LinkagePlan {
         return of.joint == TreeJoint::revolute || (of.joint == TreeJoint::floating && coordinate == of.coordinate + 2);
     }
 };
+static_assert(std::has_unique_object_representations_v<LinkagePlan>);
 
 }  // namespace slideway

@@ -50,7 +50,9 @@ public:
 private:
     static constexpr int n = LinkagePlan::most_coordinates, rows = 2 * LinkagePlan::most_closures;
 
-    SLIDEWAY_HD LinkageMotion<double> motion() const { return {plan_, p_, state_, plan_.is_driven, {state_[0], speed_, 0}}; }
+    using Motion = LinkageMotion<PlanTable, double>;
+
+    SLIDEWAY_HD Motion motion() const { return {PlanTable(plan_), p_, state_, plan_.is_driven != 0, {state_[0], speed_, 0}}; }
 
     /// Moves a body that floats to where its first pin or journal on what stands already closes, with the rate of that.
     SLIDEWAY_HD bool hang(int body) {
@@ -76,22 +78,22 @@ private:
         return body;
     }
     /// Of a pin or journal along X and Y; of a block across its walls, and by how much it is tilted, in the size of its body.
-    SLIDEWAY_HD Vec2<double> gap_of(LinkageMotion<double> const& motion, int closure) const {
+    SLIDEWAY_HD Vec2<double> gap_of(Motion const& motion, int closure) const {
         auto const& offset = p_.closure[closure].offset;
         if (plan_.closure[closure].kind != ClosureKind::block) return motion.apart(closure).place - offset;
-        BlockPose<double> const pose(motion, plan_, p_, closure);
+        BlockPose<Motion> const pose(motion, closure);
         return {pose.place.y - offset.x, size_of(closure) * ::remainder(pose.tilt - offset.y, 6.283185307179586)};
     }
-    SLIDEWAY_HD Vec2<double> rate_of(LinkageMotion<double> const& motion, int closure) const {
+    SLIDEWAY_HD Vec2<double> rate_of(Motion const& motion, int closure) const {
         if (plan_.closure[closure].kind != ClosureKind::block) return motion.apart(closure).velocity;
-        BlockPose<double> const pose(motion, plan_, p_, closure);
+        BlockPose<Motion> const pose(motion, closure);
         return {pose.velocity.y, size_of(closure) * pose.spin};
     }
-    SLIDEWAY_HD void put_rows(LinkageMotion<double> const& motion, int closure, double* first, double* second) const {
+    SLIDEWAY_HD void put_rows(Motion const& motion, int closure, double* first, double* second) const {
         auto const& of = plan_.closure[closure];
         if (of.kind != ClosureKind::block) return motion.put_rows(closure, first, second);
         for (int c = 0; c < plan_.coordinates; ++c) first[c] = second[c] = 0;
-        BlockPose<double> const pose(motion, plan_, p_, closure);
+        BlockPose<Motion> const pose(motion, closure);
         double const size = size_of(closure);
         motion.add_row(of.body[0], pose.centre.arm, pose.normal(), first);
         motion.add_row(of.body[1], pose.middle.arm + (pose.centre.place - pose.middle.place), -1.0 * pose.normal(), first);
@@ -135,7 +137,7 @@ private:
     }
 
     /// J W Jᵀ, W the squared sizes of the coordinates.  @return whether it has an inverse
-    SLIDEWAY_HD bool factor(LinkageMotion<double> const& at) {
+    SLIDEWAY_HD bool factor(Motion const& at) {
         int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
         for (int k = 0; k < plan_.closures; ++k) put_rows(at, k, jacobian_[2 * k], jacobian_[2 * k + 1]);
         for (int i = 0; i < m; ++i) {
@@ -146,7 +148,7 @@ private:
             }
         }
         bool whole = true;
-        factors_.factor(m, 1e-10, [&](int row, bool singular) {
+        factors_.factor(PlanTable(plan_), m, 1e-10, [&](int row, bool singular) {
             if (singular && whole) worst_ = row / 2, whole = false;
         });
         return whole;
@@ -155,7 +157,7 @@ private:
     /// The least motion that closes gaps, of places (0) or rates (1).
     SLIDEWAY_HD void move(double* gap, int of, int first) {
         int const m = 2 * plan_.closures;
-        factors_.solve(gap);
+        factors_.solve(PlanTable(plan_), gap);
         // Far from where it closes, no angle by more than a third of a right one at once.
         double step[n], largest = 0;
         for (int c = first; c < plan_.coordinates; ++c) {

@@ -11,38 +11,42 @@ public:
     /// The lower triangle, to be filled in before `factor`.
     Real entry[most][most];
 
+    /// @param loops whose `up` and `down` have a function see 0 … n − 1 (kernels/linkage/linkage_plans.hpp)
     /// @param least pivot over the largest diagonal entry below which a row counts as singular  @param see (row, lanes where it is)
-    template <class See> SLIDEWAY_FN void factor(int rows, double least, See const& see) {
+    template <class Loops, class See> SLIDEWAY_FN void factor(Loops const& loops, int rows, double least, See const& see) {
         rows_ = rows;
         Real largest(0.0);
-        for (int i = 0; i < rows; ++i) largest = max(largest, entry[i][i]);
-        for (int i = 0; i < rows; ++i) {
-            for (int j = 0; j <= i; ++j) {
-                Real sum = entry[i][j];
-                for (int k = 0; k < j; ++k) sum = fnma(entry[i][k], entry[j][k], sum);
-                if (i > j) {
-                    entry[i][j] = sum * entry[j][j];
-                } else {
-                    see(i, Mask<Real>(!(sum > Real(least) * largest)));
-                    entry[i][i] = Real(1.0) / sqrt(sum);  // the reciprocal, by which rows are multiplied
-                }
-            }
-        }
+        loops.up(rows, [&](int i) SLIDEWAY_INLINED { largest = max(largest, entry[i][i]); });
+        loops.up(rows, [&](int i) SLIDEWAY_INLINED {
+            loops.up(i, [&](int j) SLIDEWAY_INLINED { entry[i][j] = rest(loops, i, j) * entry[j][j]; });
+            Real const pivot = rest(loops, i, i);
+            see(i, Mask<Real>(!(pivot > Real(least) * largest)));
+            entry[i][i] = Real(1.0) / sqrt(pivot);  // the reciprocal, by which rows are multiplied
+        });
     }
 
     /// x ← A⁻¹ x.
-    SLIDEWAY_FN void solve(Real* x) const {
-        for (int i = 0; i < rows_; ++i) {
-            for (int j = 0; j < i; ++j) x[i] = fnma(entry[i][j], x[j], x[i]);
+    template <class Loops> SLIDEWAY_FN void solve(Loops const& loops, Real* x) const {
+        loops.up(rows_, [&](int i) SLIDEWAY_INLINED {
+            loops.up(i, [&](int j) SLIDEWAY_INLINED { x[i] = fnma(entry[i][j], x[j], x[i]); });
             x[i] = x[i] * entry[i][i];
-        }
-        for (int i = rows_ - 1; i >= 0; --i) {
-            for (int j = i + 1; j < rows_; ++j) x[i] = fnma(entry[j][i], x[j], x[i]);
+        });
+        loops.down(rows_, [&](int i) SLIDEWAY_INLINED {
+            loops.up(rows_, [&](int j) SLIDEWAY_INLINED {
+                if (j > i) x[i] = fnma(entry[j][i], x[j], x[i]);
+            });
             x[i] = x[i] * entry[i][i];
-        }
+        });
     }
 
 private:
+    /// What the rows before leave of an entry.
+    template <class Loops> SLIDEWAY_FN Real rest(Loops const& loops, int i, int j) const {
+        Real sum = entry[i][j];
+        loops.up(j, [&](int k) SLIDEWAY_INLINED { sum = fnma(entry[i][k], entry[j][k], sum); });
+        return sum;
+    }
+
     int rows_ = 0;
 };
 

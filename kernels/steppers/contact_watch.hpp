@@ -157,7 +157,7 @@ public:
         bool const touches_alone = watching == Watching::touches;
         Real fraction(1.0);
         // Sixteen pairs: g++ may call it for each, which costs a fiftieth of an audited run.
-        auto const of_pair = [&](Real d0, Real v0, Real d1, Real v1) __attribute__((always_inline)) {
+        auto const of_pair = [&](Real d0, Real v0, Real d1, Real v1) SLIDEWAY_INLINED {
             auto const change = GapHistory<Real, quads>::first_change(candidates, d0, v0, d1, v1, step, located);
             if (!touches_alone) return change.fraction;
             // A pair that parts needs no end of its own, unless it touches again in the same step: then the step ends at the parting,
