@@ -60,6 +60,11 @@ public:
     SLIDEWAY_FN void twist(int body, Real torque) {
         if (body != LinkageBody::ground) body_[body].moment = body_[body].moment - torque;
     }
+    /// Adds nothing to what acts on a closure's bodies, or NaN in a lane whose depth there is: whatever its neighbours touch, it does not go on.
+    SLIDEWAY_FN void require(int closure, Real depth) {
+        auto const& of = plan_->closure[closure];
+        twist(of.body[0] == LinkageBody::ground ? of.body[1] : of.body[0], depth - depth);
+    }
     /// The two points of a closure, the first one's less the second one's.
     SLIDEWAY_FN LinkagePoint<Real> apart(int closure) const {
         auto const& of = plan_->closure[closure];
