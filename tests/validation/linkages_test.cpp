@@ -164,6 +164,24 @@ TEST(Linkages, OfPendulumsAreNotAccused) {
     }
 }
 
+/// Two equal rods, let go from rest with both level, against tests/golden/double_pendulum.py, which differentiates Lagrange's equations.
+TEST(Linkages, OfADoublePendulumSeparateAsAnotherProgramSays) {
+    constexpr double wanted = 1.179, half_width = 0.0103;
+    Result const result = Ensemble::parse(
+        "schema = 1\n[mechanism]\nkind = \"linkage\"\n[body.upper]\nmass = 1\ninertia = 0.08333333333333333\ncenter_x = 0.5\n[body.lower]\nmass = 1\ninertia = 0.08333333333333333\ncenter_x = 0.5\n"
+        "[link.top]\nkind = \"revolute\"\nfirst = \"ground\"\nsecond = \"upper\"\n[link.elbow]\nkind = \"revolute\"\nfirst = \"upper\"\nfirst_x = 1\nsecond = \"lower\"\n"
+        "[integrator]\nrtol = 1e-8\natol = 1e-8\nmax_step = 0.1\n[study]\nkind = \"lyapunov\"\nmembers = 32\nduration = 200\nTtr = 20\ndt = 0.05\nd0 = 1e-6\nverify = 0\nquantities = [\"energy_change\"]\n"
+        "[study.vary]\n\"body.upper.mass\" = { dist = \"unif\", low = 0.999999, high = 1.000001 }\n").run();
+    auto const exponents = column(result, "lyapunov_exponent");
+    double mean = 0, squares = 0;
+    for (double const x : exponents) mean += x / double(exponents.size());
+    for (double const x : exponents) squares += (x - mean) * (x - mean);
+    double const error = std::sqrt(squares / double(exponents.size() - 1) / double(exponents.size()));
+    EXPECT_NEAR(mean, wanted, 1.5 * std::hypot(2 * error, half_width));
+    EXPECT_LT(error, 0.02);
+    for (double const x : column(result, "energy_change")) EXPECT_LT(std::abs(x), 1e-3);
+}
+
 TEST(Linkages, HaveOneHashOnEveryInstructionSetAndNumberOfThreads) {
     Ensemble const ensemble = Ensemble::read(SLIDEWAY_SCENES "/four_bar_journals.toml", {{"study.revolutions", "0.5"}, {"study.members", "13"}, {"study.verify", "0"}});
     std::string const hash = ensemble.run({.threads = 2}).payload_hash();
