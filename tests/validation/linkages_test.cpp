@@ -164,7 +164,7 @@ TEST(Linkages, OfPendulumsAreNotAccused) {
     }
 }
 
-/// Two equal rods, let go from rest with both level, against tests/golden/double_pendulum.py, which differentiates Lagrange's equations.
+/// Two equal rods, let go from rest with both level, against tests/golden/double_pendulum.py, which differentiates Lagrange's equations; its second seed says 1.180.
 TEST(Linkages, OfADoublePendulumSeparateAsAnotherProgramSays) {
     constexpr double wanted = 1.179, half_width = 0.0103;
     Result const result = Ensemble::parse(
@@ -180,6 +180,21 @@ TEST(Linkages, OfADoublePendulumSeparateAsAnotherProgramSays) {
     EXPECT_NEAR(mean, wanted, 1.5 * std::hypot(2 * error, half_width));
     EXPECT_LT(error, 0.02);
     for (double const x : column(result, "energy_change")) EXPECT_LT(std::abs(x), 1e-3);
+}
+
+/// Each for a quarter of a turn, or a tenth of a second.
+TEST(Linkages, OfTheScenesRunAndKeepTheirBooks) {
+    for (std::string const name : {"four_bar_journal", "four_bar_journals", "four_bar_loose", "six_bar_press", "slider_crank_clearances", "slider_crank_journal"}) {
+        Settings settings{{"study.members", "2"}, {"study.verify", "0"}, {"integrator.rtol", "1e-8"}, {"integrator.atol", "1e-8"}};
+        if (name != "four_bar_loose") settings.push_back({"study.revolutions", "0.25"});
+        Result const result = Ensemble::read(SLIDEWAY_SCENES "/" + name + ".toml", settings).run();
+        for (std::size_t i = 0; i < 2; ++i) {
+            double const lost = column(result, "damping_loss")[i];
+            EXPECT_EQ(column(result, "status")[i], 0) << name;
+            EXPECT_GT(lost, 1e-3) << name;
+            EXPECT_LT(std::abs(column(result, "energy_residual")[i]), 1e-3 * lost) << name;
+        }
+    }
 }
 
 TEST(Linkages, HaveOneHashOnEveryInstructionSetAndNumberOfThreads) {
