@@ -164,6 +164,39 @@ TEST(Linkages, OfPendulumsAreNotAccused) {
     }
 }
 
+/// Two equal rods, let go from rest with both level, against tests/golden/double_pendulum.py, which differentiates Lagrange's equations; its second seed says 1.180.
+TEST(Linkages, OfADoublePendulumSeparateAsAnotherProgramSays) {
+    constexpr double wanted = 1.179, half_width = 0.0103;
+    Result const result = Ensemble::parse(
+        "schema = 1\n[mechanism]\nkind = \"linkage\"\n[body.upper]\nmass = 1\ninertia = 0.08333333333333333\ncenter_x = 0.5\n[body.lower]\nmass = 1\ninertia = 0.08333333333333333\ncenter_x = 0.5\n"
+        "[link.top]\nkind = \"revolute\"\nfirst = \"ground\"\nsecond = \"upper\"\n[link.elbow]\nkind = \"revolute\"\nfirst = \"upper\"\nfirst_x = 1\nsecond = \"lower\"\n"
+        "[integrator]\nrtol = 1e-8\natol = 1e-8\nmax_step = 0.1\n[study]\nkind = \"lyapunov\"\nmembers = 32\nduration = 200\nTtr = 20\ndt = 0.05\nd0 = 1e-6\nverify = 0\nquantities = [\"energy_change\"]\n"
+        "[study.vary]\n\"body.upper.mass\" = { dist = \"unif\", low = 0.999999, high = 1.000001 }\n").run();
+    auto const exponents = column(result, "lyapunov_exponent");
+    double mean = 0, squares = 0;
+    for (double const x : exponents) mean += x / double(exponents.size());
+    for (double const x : exponents) squares += (x - mean) * (x - mean);
+    double const error = std::sqrt(squares / double(exponents.size() - 1) / double(exponents.size()));
+    EXPECT_NEAR(mean, wanted, 1.5 * std::hypot(2 * error, half_width));
+    EXPECT_LT(error, 0.02);
+    for (double const x : column(result, "energy_change")) EXPECT_LT(std::abs(x), 1e-3);
+}
+
+/// Each for a quarter of a turn, or a tenth of a second.
+TEST(Linkages, OfTheScenesRunAndKeepTheirBooks) {
+    for (std::string const name : {"four_bar_journal", "four_bar_journals", "four_bar_loose", "six_bar_press", "slider_crank_clearances", "slider_crank_journal"}) {
+        Settings settings{{"study.members", "2"}, {"study.verify", "0"}, {"integrator.rtol", "1e-8"}, {"integrator.atol", "1e-8"}};
+        if (name != "four_bar_loose") settings.push_back({"study.revolutions", "0.25"});
+        Result const result = Ensemble::read(SLIDEWAY_SCENES "/" + name + ".toml", settings).run();
+        for (std::size_t i = 0; i < 2; ++i) {
+            double const lost = column(result, "damping_loss")[i];
+            EXPECT_EQ(column(result, "status")[i], 0) << name;
+            EXPECT_GT(lost, 1e-3) << name;
+            EXPECT_LT(std::abs(column(result, "energy_residual")[i]), 1e-3 * lost) << name;
+        }
+    }
+}
+
 TEST(Linkages, HaveOneHashOnEveryInstructionSetAndNumberOfThreads) {
     Ensemble const ensemble = Ensemble::read(SLIDEWAY_SCENES "/four_bar_journals.toml", {{"study.revolutions", "0.5"}, {"study.members", "13"}, {"study.verify", "0"}});
     std::string const hash = ensemble.run({.threads = 2}).payload_hash();
