@@ -8,10 +8,29 @@
 
 namespace slideway {
 
+namespace {
+
+/// As it goes together, or of a state that is given.
+LinkageStart start_as(LinkagePlan const& plan, LinkageParameters<double> const& p, Inputs const& in) {
+    StateNumbers given{};
+    if (is_given(in)) put_linkage_start(plan, in, given.data());
+    return {plan, p, is_given(in) ? given[1] : start_speed(in), is_given(in) ? given.data() : nullptr};
+}
+
+}  // namespace
+
 LinkageAssembly assembled(LinkagePlan const& plan, Inputs const& in) {
     LinkageParameters<double> const p = linkage_parameters(plan, in);
-    LinkageStart const start(plan, p, start_speed(in));
-    return {start.fault(), start.worst(), start.distance()};
+    LinkageStart const start = start_as(plan, p, in);
+    LinkageAssembly found{start.fault(), start.worst(), start.distance(), start.rate(), {}};
+    start.put_as_it_is(found.state.data());
+    return found;
+}
+
+std::array<double, 2> place_in_joint(LinkagePlan const& plan, Inputs const& in, int closure) {
+    LinkageParameters<double> const p = linkage_parameters(plan, in);
+    auto const [x, y] = start_as(plan, p, in).place_in(closure);
+    return {x, y};
 }
 
 StateNumbers start_of(LinkagePlan const& plan, Inputs const& in) {

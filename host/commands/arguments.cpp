@@ -134,7 +134,9 @@ void add_check(Options& options, CheckArguments& check) {
     options.threads(check.threads);
     add_backend(options, check.scene);
     CLI::Option* const json = options.json(check.json);
-    options.flag("--resolved", check.resolved, "Print the resolved scene alone, as a scene file")->excludes(json);
+    CLI::Option* const resolved = options.flag("--resolved", check.resolved, "Print the resolved scene alone, as a scene file")->excludes(json);
+    options.text("--draw", "FILE.svg|FILE.png", check.drawing, "Draw the mechanism at its start, too (uses the Python package)")->excludes(json)->excludes(resolved);
+    options.force(check.force);
     options.any_start(check.any_start);
 }
 
@@ -144,7 +146,7 @@ void add_probe(Options& options, ProbeArguments& probe) {
     options.value("--member", "K", probe.member, "With a result in the place of SCENE: the member (default: its first)", parse_member)->excludes(table);
     options.value("--time", "SECONDS", probe.time, "Likewise: its stored state that is nearest to this time (default: its end)", parse_time)->excludes(table);
     CLI::Option* const output = options.text("-o,--output", "OUT.csv", probe.output, "Write CSV to this file");
-    options.flag("--explain", probe.explain, "Follow how the forces come about: apices, depths, modes, normal forces, friction, what they come to")->excludes(output);
+    options.flag("--explain", probe.explain, "Follow how the forces come about: apices or joints, depths, modes, normal forces, friction, what they come to")->excludes(output);
     options.force(probe.force);
     options.json(probe.json);
 }
@@ -283,7 +285,8 @@ std::vector<CommandRow> const& command_rows() {
           {"slideway run scenes/tolerance_0.1mm.toml -o result.nc --shard 3/8", "The third of eight jobs of an array, which share result.nc.shards."}}},
         {"check", "Check a scene; print it with all keys, and the cost of a run", add<CheckArguments, add_check>,
          {{"slideway check scenes/tolerance_0.1mm.toml", "The scene in SI units, parts of the kernels, memory and cost."},
-          {"slideway check scenes/tolerance_0.1mm.toml --resolved >resolved.toml", "A scene file with every key."}}},
+          {"slideway check scenes/tolerance_0.1mm.toml --resolved >resolved.toml", "A scene file with every key."},
+          {"slideway check scenes/four_bar_journals.toml --draw four_bar.svg", "What the scene describes, as a picture."}}},
         {"probe", "Compute forces, contact mode and derivative of single states", add<ProbeArguments, add_probe>,
          {{"slideway probe scenes/slider_crank_0.1mm.toml --set initial.z=\"0.1 mm\"", "The start of a scene, a tenth of a millimetre higher."},
           {"slideway probe result.nc --member 3 --time 0.05 --explain", "A state that a result has stored, and how its forces come about."},

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "host/backend/linkage_modules.hpp"
 #include "host/base/text.hpp"
@@ -187,10 +189,24 @@ void print_design(Scene const& scene) {
     if (!limited.empty()) print_field("limits", fmt::format("of {}", fmt::join(limited, ", ")));
 }
 
+/// What is wrong is seen too: as far as the linkage goes together, with the joint that stays open.
+Scene admitted_scene(CheckArguments const& arguments, std::optional<OutputTarget> const& target) {
+    try {
+        return admitted_scene(arguments.scene, arguments.any_start);
+    } catch (OpenLinkage const& open) {
+        if (!target) throw;
+        pid_t const child = fork();
+        if (child == 0) draw(*target, drawing_json(*open.scene, &open));
+        if (child > 0) waitpid(child, nullptr, 0);
+        throw;
+    }
+}
+
 }  // namespace
 
 int execute(CheckArguments const& arguments) {
-    Scene const scene = admitted_scene(arguments.scene, arguments.any_start);
+    std::optional<OutputTarget> const target = arguments.drawing.empty() ? std::nullopt : std::optional(drawing_target(arguments));
+    Scene const scene = admitted_scene(arguments, target);
     int const threads = arguments.threads;
     BackendRequest request = arguments.scene.backend;
     request.threads = threads;
@@ -233,6 +249,7 @@ int execute(CheckArguments const& arguments) {
     print_field("disk", fmt::format("{} for the result, {} for its shards until it is whole", bytes_text(prediction.output_bytes),
                                     shards_text(scene, prediction)));
     print_field("cost", cost_text(scene, prediction, trial));
+    if (target) draw(*target, drawing_json(scene));
     return exit_code::done;
 }
 

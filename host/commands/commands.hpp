@@ -115,6 +115,8 @@ struct CheckArguments {
     bool any_start = false;  // also one that no mechanism has
     bool json = false;
     bool resolved = false;  // the resolved scene alone, which runs as it is
+    std::string drawing;    // file of the mechanism at its start; empty: none
+    bool force = false;
 };
 int execute(CheckArguments const& arguments);
 

@@ -12,6 +12,7 @@
 #include "host/study/probe.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/verification.hpp"
+#include "kernels/members/complete_inputs.hpp"
 #include "kernels/members/start.hpp"
 
 namespace slideway::cli {
@@ -25,6 +26,17 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 Json object(char const* command) { return {{"schema_version", json_version}, {"command", command}}; }
 
 std::string text_of(Json const& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json of_state(Mechanism mechanism, StateNumbers const& state) {
+    MechanismInfo const& has = info(mechanism);
+    Json json;
+    for (int i = 0; i < has.states; ++i) json[state_info(has, i).name] = number(state[static_cast<std::size_t>(i)]);
+    return json;
+}
+
+Json of_start(Scene const& scene) {
+    return of_state(scene.parts.mechanism, start_of(scene.parts.mechanism, complete_inputs(scene.inputs, info(scene.parts.mechanism))));
+}
 
 Json of_summary(Summary const& summary) {
     return {{"count", summary.count},          {"mean", number(summary.mean)},     {"sd", number(summary.sd)},
@@ -180,6 +192,16 @@ Json of_verdicts(ResultReader const& results) {
     return list;
 }
 
+Json of_joints(StateTable const& table, std::size_t row, ProbeResult const& result) {
+    Json json{{"law", "points"}, {"damping", damping_text(table.parts[row])}, {"joints", Json::array()}};
+    for (JointForce const& one : joint_forces(table, row, result)) {
+        json["joints"].push_back({{"joint", one.joint}, {"first", one.first}, {"second", one.second}, {"touches", one.touches()}});
+        for (auto const& [name, value] : {std::pair("x", one.x), {"y", one.y}, {"tilt", one.tilt}, {"depth", one.depth}, {"normal_force", one.normal_force},
+                                          {"force_x", one.force_x}, {"force_y", one.force_y}}) json["joints"].back()[name] = number(value);
+    }
+    return json;
+}
+
 Json of_explanation(Explanation const& found, Parts const& parts) {
     Json json{{"law", contact_info(parts).name}, {"damping", damping_text(parts)}};
     for (ApexPair const& pair : found.pairs) {
@@ -255,10 +277,17 @@ std::string stopped_json(std::string const& folder, std::uint64_t left) {
     return text_of(json);
 }
 
+std::string drawing_json(Scene const& scene, OpenLinkage const* open) {
+    Json json{{"resolved", resolved_toml(scene)}, {"start", open == nullptr ? of_start(scene) : of_state(scene.parts.mechanism, open->state)}};
+    if (open != nullptr) json["open"] = open->joint;
+    return text_of(json);
+}
+
 std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend) {
     Json json = object("check");
     json["scene"] = scene.path;
     json["resolved"] = resolved_toml(scene);
+    json["start"] = of_start(scene);
     json["derived"] = Json::array();
     for (DerivedNumber const& one : derived_numbers(scene)) {
         json["derived"].push_back({{"name", one.key->name}, {"value", number(one.value)}, {"unit", one.key->unit}, {"from", one.words}});
@@ -290,12 +319,10 @@ std::string probe_json(std::string const& path, StateTable const& table, std::ve
     for (std::size_t row = 0; row < results.size(); ++row) {
         ProbeResult const& result = results[row];
         Json one{{"time", table.times[row]}, {"status", name_of(result.status)}};
-        MechanismInfo const& has = info(table.mechanism);
-        StateNumbers const state = start_of(table.mechanism, table.inputs[row]);
-        for (int i = 0; i < has.states; ++i) one["state"][state_info(has, i).name] = number(state[static_cast<std::size_t>(i)]);
+        one["state"] = of_state(table.mechanism, start_of(table.mechanism, table.inputs[row]));
         for (auto const& [name, value] : result_columns(table, result)) one["values"][name] = number(value);
-        for (auto const& [name, value] : force_columns(has, result)) one["forces"][name] = number(value);
-        if (explained) one["explanation"] = of_explanation(explain(table, row, result), table.parts[row]);
+        for (auto const& [name, value] : force_columns(info(table.mechanism), result)) one["forces"][name] = number(value);
+        if (explained) one["explanation"] = is_linkage(table.mechanism) ? of_joints(table, row, result) : of_explanation(explain(table, row, result), table.parts[row]);
         rows.push_back(std::move(one));
     }
     return text_of(json);

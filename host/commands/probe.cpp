@@ -181,6 +181,28 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
         print_field(has.signals[i].name, fmt::format("{:.10g} {}", result.signals[i], has.signals[i].unit));
 }
 
+/// Of a linkage: what is where in its joints with clearance, and how it pushes.
+void print_joints(Probed const& probed, std::size_t row, ProbeResult const& result) {
+    std::vector<JointForce> const joints = joint_forces(probed.table, row, result);
+    print_out("\nHow the forces come about (docs/explanation/linkages.md): what is where in its joint, and its normal force on the first body\n");
+    print_table([&](int digits) {
+        TextRows rows{{"joint", "of", "in", "x [m]", "y [m]", "tilt [rad]", "depth [m]", "normal force [N]", "along X [N]", "along Y [N]"}};
+        for (JointForce const& one : joints) {
+            rows.push_back({one.joint, one.first, one.second});
+            for (double const value : {one.x, one.y, one.tilt, one.depth, one.normal_force, one.force_x, one.force_y}) rows.back().push_back(cell(value, digits));
+        }
+        return rows;
+    }, 5, 3, 8);
+    print_out("\n");
+    std::vector<std::string_view> touching;
+    for (JointForce const& one : joints) {
+        if (one.touches()) touching.push_back(one.joint);
+    }
+    print_field("touching", touching.empty() ? "none" : fmt::format("{}", fmt::join(touching, ", ")));
+    print_field("damping", fmt::format("{}{}", damping_text(probed.table.parts[row]),
+                                       probed.table.parts[row].damping == Damping::restitution ? ", by the speed of the last touch, which no state tells: as after one of 0.1 mm/s" : ""));
+}
+
 /// Steps from the apices to what acts on the slider.
 void print_explanation(Probed const& probed, std::size_t row, ProbeResult const& result) {
     Explanation const found = explain(probed.table, row, result);
@@ -238,7 +260,7 @@ int execute(ProbeArguments const& arguments) {
         for (std::size_t row = 0; row < table.rows(); ++row) {
             if (row > 0) print_out("\n");
             print_listing(probed, row, results[row], isa);
-            if (arguments.explain) print_explanation(probed, row, results[row]);
+            if (arguments.explain) is_linkage(table.mechanism) ? print_joints(probed, row, results[row]) : print_explanation(probed, row, results[row]);
         }
     }
     return exit_code::done;

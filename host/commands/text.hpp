@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 #include "host/commands/commands.hpp"
+#include "host/config/linkages.hpp"
 #include "host/run/ensemble.hpp"
+#include "host/store/output_target.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/probe.hpp"
@@ -129,6 +131,12 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
                         Scene const* scene = nullptr);
 /// A run that ended before its result.
 std::string stopped_json(std::string const& folder, std::uint64_t left);
+/// What the Python package draws a scene of: resolved, with the state in which it starts.  @param open where it does not go together
+std::string drawing_json(Scene const& scene, OpenLinkage const* open = nullptr);
+/// Where `check --draw` draws.  @throws FileError, SceneError
+OutputTarget drawing_target(CheckArguments const& arguments);
+/// Becomes the Python package, which draws.  @param drawing of drawing_json
+[[noreturn]] void draw(OutputTarget const& target, std::string const& drawing);
 /// @param trial nothing where no member was tried
 std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend);
 /// @param path of the scene or the result  @param stored where the state is from

@@ -13,7 +13,9 @@
 #include "host/base/error.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/keys.hpp"
+#include "host/config/scene.hpp"
 #include "host/config/settings.hpp"
+#include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
 namespace {
@@ -48,6 +50,9 @@ constexpr PartNumber rows_of_parts[] = {
     {link_table, "offset_y", "m", "the same along Y, or where a block starts across its walls", any, of_contacts},
     {link_table, "tilt", "rad", "tilt of a block at the start", any, of_blocks},
 };
+
+/// How far out a journal or a corner may start, in clearances.
+constexpr double deepest_start = 1.05;
 
 /// Those that are known: as many as a process may meet.
 struct Registry {
@@ -155,21 +160,42 @@ bool counts_for_linkages(Key const& key, bool driven) {
     return key.twin == nullptr && (in(always) || (driven && in(of_drives)));
 }
 
+namespace {
+
+Key const* key_at(Linkage const& linkage, int place) {
+    return place < 0 ? nullptr : &*std::ranges::find(linkage.keys, linkage_inputs[place], &Key::member);
+}
+
+/// Where a block starts between its walls: corners as deep in them as starts of sliders may be.
+std::optional<Defect> defect_of_block(Inputs const& in, LinkageClosure const& of, Linkage const& linkage) {
+    auto const value = [&](int place) { return place < 0 ? 0 : in.*linkage_inputs[place]; };
+    double const y = value(of.offset[0]), tilt = value(of.offset[1]), clearance = value(of.clearance), length = value(of.length), height = value(of.height);
+    double const corner = std::abs(y) + (length * std::abs(std::sin(tilt)) + height * std::cos(tilt)) / 2;
+    if (corner <= height / 2 + deepest_start * clearance) return {};
+    Key const* const blamed = key_at(linkage, of.offset[tilt != 0 ? 1 : 0]);
+    return Defect{blamed, nullptr, blamed->get(in), {fmt::format("a corner of the block starts {:.3g} m inside its walls", corner - height / 2 - clearance),
+                                                     "use offset_y and tilt within the clearance"}};
+}
+
+}  // namespace
+
 std::optional<Defect> defect_of_linkage(Inputs const& in, Linkage const& linkage) {
     auto const& plan = linkage.plan;
     for (Key const& key : linkage.keys) {
         if (auto problem = broken_rule(key, key.get(in))) return Defect{&key, nullptr, key.get(in), *std::move(problem)};
     }
-    auto const key_at = [&](int place) { return place < 0 ? nullptr : &*std::ranges::find(linkage.keys, linkage_inputs[place], &Key::member); };
     for (int k = 0; k < plan.closures; ++k) {
         LinkageClosure const& of = plan.closure[k];
+        if (of.kind == ClosureKind::block) {
+            if (auto found = defect_of_block(in, of, linkage)) return found;
+        }
         if (of.kind != ClosureKind::journal) continue;
-        Key const &clearance = *key_at(of.clearance), &radius = *key_at(of.radius);
+        Key const &clearance = *key_at(linkage, of.clearance), &radius = *key_at(linkage, of.radius);
         double const x = of.offset[0] < 0 ? 0 : in.*linkage_inputs[of.offset[0]], y = of.offset[1] < 0 ? 0 : in.*linkage_inputs[of.offset[1]];
         if (!(clearance.get(in) < radius.get(in)))
             return Defect{&clearance, &radius, clearance.get(in), {"no journal is left in the bearing", "use a value below that of radius"}};
-        if (std::hypot(x, y) > 1.05 * clearance.get(in))
-            return Defect{key_at(of.offset[0] >= 0 ? of.offset[0] : of.offset[1]), nullptr, x, {"the journal starts within its bearing", "use offsets within the clearance"}};
+        if (std::hypot(x, y) > deepest_start * clearance.get(in))
+            return Defect{key_at(linkage, of.offset[0] >= 0 ? of.offset[0] : of.offset[1]), nullptr, x, {fmt::format("the journal starts {:.3g} m inside its bearing", std::hypot(x, y) - clearance.get(in)), "use offset_x and offset_y within the clearance"}};
     }
     using enum AssemblyFault;
     LinkageAssembly const start = assembled(plan, in);
@@ -178,11 +204,23 @@ std::optional<Defect> defect_of_linkage(Inputs const& in, Linkage const& linkage
     std::string const& joint = linkage.closures[static_cast<std::size_t>(start.worst)];
     auto const row = std::ranges::find(linkage.rows, joint, &Linkage::Row::name);
     Key const* const key = row == linkage.rows.end() || row->keys.empty() ? &linkage.keys.front() : &linkage.keys[row->keys.front()];
+    if (is_given(in))
+        return Defect{key, nullptr, key->get(in), {fmt::format("in this state {} is open by {:.3g} m and opens at {:.3g} m/s, though it has no clearance", joint, start.distance, start.rate),
+                                                   "give places and rates with which the loops close, all their digits"}};
     if (start.fault == redundant)
         return Defect{key, nullptr, key->get(in), {fmt::format("{} holds what other joints hold already, or the linkage starts at a dead centre", joint),
                                                    "remove a joint, or start at another angle"}};
-    return Defect{key, nullptr, key->get(in), {fmt::format("{} stays open by {:.3g} m: lengths do not reach, or angles are far off", joint, start.distance),
+    bool const plays = plan.closure[start.worst].has_clearance();
+    return Defect{key, nullptr, key->get(in), {fmt::format("{} stays open by {:.3g} m{}: lengths do not reach, or angles are far off", joint, start.distance, plays ? " beyond its clearance" : ""),
                                                "check the points of the joints, or give the bodies an angle near where they start"}};
+}
+
+void refuse_open(Scene const& scene, std::string const& line) {
+    Linkage const* const linkage = linkage_of(scene.parts.mechanism);
+    if (linkage == nullptr) return;
+    LinkageAssembly const start = assembled(linkage->plan, complete_inputs(scene.inputs, linkage->info));
+    if (start.fault == AssemblyFault::none) return;
+    throw OpenLinkage{line, std::make_shared<Scene const>(scene), start.state, linkage->closures[static_cast<std::size_t>(start.worst)]};
 }
 
 }  // namespace slideway

@@ -10,13 +10,16 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/error.hpp"
 #include "kernels/key.hpp"
 #include "kernels/linkage/linkage_plan.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
+#include "kernels/members/start.hpp"
 
 namespace slideway {
 
 struct Reading;
+struct Scene;
 struct Setting;
 struct Defect;
 
@@ -73,6 +76,18 @@ MechanismInfo const& linkage_info(Mechanism mechanism);
 bool counts_for_linkages(Key const& key, bool driven);
 /// What numbers of a member's bodies and links ask of one another; it also has to go together at the start.
 std::optional<Defect> defect_of_linkage(Inputs const& in, Linkage const& linkage);
+
+/// A scene whose linkage does not go together, and how far it does.
+struct OpenLinkage : SceneError {
+    OpenLinkage(std::string_view line, std::shared_ptr<Scene const> of, StateNumbers const& as_far, std::string worst)
+        : SceneError(line), scene(std::move(of)), state(as_far), joint(std::move(worst)) {}
+
+    std::shared_ptr<Scene const> scene;  // read as far as its physics
+    StateNumbers state;
+    std::string joint;  // link.wrist, the worst one
+};
+/// @throws OpenLinkage with this line, if so
+void refuse_open(Scene const& scene, std::string const& line);
 
 /// [body.<name>] and [link.<name>]: the scene's mechanism, Parts::linkage, and the keys of their numbers; needs the drive.
 void read_linkage(Reading& reading);

@@ -31,7 +31,7 @@ std::string parameter_name(Key const& key) {
 Outputs outputs_of(MechanismInfo const& mechanism) {
     Outputs all;
     auto const add = [&](QuantityInfo const& quantity) {
-        all.quantities.push_back({quantity, all.columns});
+        all.quantities.push_back({quantity, all.columns, Selection{1} << all.quantities.size()});
         all.columns += static_cast<std::size_t>(quantity.columns);
     };
     std::ranges::for_each(quantity_table, add);
@@ -54,7 +54,35 @@ Outputs outputs_of(MechanismInfo const& mechanism) {
     return all;
 }
 
+/// Kernels have them in the places of a slider's apices.
+void add_joints(Outputs& all, Linkage const& linkage) {
+    for (Quantity const of : {Quantity::peak_apex_force, Quantity::mean_apex_force}) {
+        for (std::size_t k = 0; k < linkage.closures.size(); ++k) {
+            if (!linkage.plan.closure[k].has_clearance()) continue;
+            std::string const joint = linkage.closures[k].substr(linkage.closures[k].find('.') + 1);
+            auto const text = [&](std::string words) { return all.texts.emplace_back(std::move(words)).c_str(); };
+            OutputQuantity quantity = all.quantities[static_cast<std::size_t>(of)];
+            quantity.name = text(name_of_joint_quantity(of, joint));
+            quantity.long_name = text(fmt::format("{} in {}", of == Quantity::peak_apex_force ? "largest normal force" : "time mean of the normal force", joint));
+            quantity.columns = 1, quantity.dimension = nullptr;
+            quantity.place += k;
+            all.has_quantities |= Selection{1} << all.quantities.size();
+            all.quantities.push_back(quantity);
+        }
+    }
+}
+
 }  // namespace
+
+Selection kept_for(Outputs const& outputs, Selection quantities) {
+    Selection kept = 0;
+    for (OutputQuantity const& quantity : selected(outputs.quantities, quantities)) kept |= quantity.kept_with;
+    return kept;
+}
+
+std::string name_of_joint_quantity(Quantity of_apices, std::string_view joint) {
+    return fmt::format("{}_force_{}", of_apices == Quantity::peak_apex_force ? "peak" : "mean", joint);
+}
 
 Outputs const& outputs_of(Mechanism mechanism) {
     static OfAllKnown<std::deque<Outputs>> all([] {
@@ -67,7 +95,10 @@ Outputs const& outputs_of(Mechanism mechanism) {
     static std::map<Mechanism, Outputs> of_linkages;
     std::lock_guard const lock(access);
     auto const [at, is_new] = of_linkages.try_emplace(mechanism);
-    if (is_new) at->second = outputs_of(info(mechanism));
+    if (is_new) {
+        at->second = outputs_of(info(mechanism));
+        if (Linkage const* const linkage = linkage_of(mechanism)) add_joints(at->second, *linkage);
+    }
     return at->second;
 }
 

@@ -14,8 +14,11 @@
 
 namespace slideway {
 
-/// A quantity, and where a member's row of all quantities has it.
-struct OutputQuantity : QuantityInfo { std::size_t place; };
+/// A quantity, where a member's row of all quantities has it, and what the kernels are asked for to have it there.
+struct OutputQuantity : QuantityInfo {
+    std::size_t place;
+    Selection kept_with;
+};
 
 /// Entry i of a list is bit i of a Selection.
 struct Outputs {
@@ -27,6 +30,10 @@ struct Outputs {
 };
 
 Outputs const& outputs_of(Mechanism mechanism);
+/// What kernels are asked for to have all of a set.
+Selection kept_for(Outputs const& outputs, Selection quantities);
+/// Quantities of the joints with clearance of a linkage: peak_force_<joint>, mean_force_<joint>.
+std::string name_of_joint_quantity(Quantity of_apices, std::string_view joint);
 /// Why scenes and results cannot name the signals of a mechanism that a module brings; "" where they can.
 std::string objection_to_signals(MechanismInfo const& mechanism);
 

@@ -74,7 +74,9 @@ void check_inputs(Reading const& reading) {
             if (key != nullptr && entry.key->overlaps(*key)) node = entry.node;  // the last one took effect
         }
     }
-    throw SceneError(fmt::format("{}: {}", node != nullptr ? node->where : reading.root.where, defect(scene.inputs, scene.parts).value_or("")));
+    std::string const line = fmt::format("{}: {}", node != nullptr ? node->where : reading.root.where, defect(scene.inputs, scene.parts).value_or(""));
+    refuse_open(scene, line);
+    throw SceneError(line);
 }
 
 }  // namespace

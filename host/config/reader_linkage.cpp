@@ -10,6 +10,7 @@
 #include "host/backend/own_modules.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/linkages.hpp"
+#include "host/config/outputs.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
@@ -198,8 +199,24 @@ private:
         }
         count_pairs();
         find_points();
+        warn_of_islands();
         if (plan.loops() > LinkagePlan::most_loops)
             refuse_that(*links_.front().node, "is one of too many joints", {fmt::format("a linkage has {} loops of ideal joints at most", LinkagePlan::most_loops), "give some of them clearance"});
+    }
+
+    /// Of bodies that no chain of joints leads to the ground from.
+    void warn_of_islands() {
+        std::set<int> held{ground};
+        for (std::size_t round = 0; round < bodies_.size(); ++round) {
+            for (GivenLink const& link : links_) {
+                if (held.contains(link.body[0]) || held.contains(link.body[1])) held.insert({link.body[0], link.body[1]});
+            }
+        }
+        std::vector<std::string_view> loose;
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            if (!held.contains(static_cast<int>(i))) loose.push_back(bodies_[i].node->name);
+        }
+        if (!loose.empty()) reading_.warn(fmt::format("{}: no joint leads from {} to the ground, so that they fall freely", reading_.scene.path, fmt::join(loose, ", ")));
     }
 
     bool hang_next(LinkKind kind) {
@@ -342,9 +359,12 @@ private:
             LinkageClosure& of = plan.closure[k];
             if (of.kind == ClosureKind::block) of.pair = LinkagePlan::most_pairs - 4 * ++blocks;
             if (of.kind == ClosureKind::journal) of.pair = journals++;
+            int const pairs = journals + 4 * blocks;
+            if (pairs > LinkagePlan::most_pairs)
+                refuse_that(*reading_.given(linkage_->closures[static_cast<std::size_t>(k)]), "is one joint with clearance too many",
+                            {fmt::format("with it journals touch in {} places and blocks, with four corners each, in {}: {} together, of {} that there may be", journals,
+                                         4 * blocks, pairs, LinkagePlan::most_pairs), "make some of them ideal"});
         }
-        if (journals + 4 * blocks <= LinkagePlan::most_pairs && blocks <= 2) return;
-        refuse_that(*links_.back().node, "is one of too many joints with clearance", {"there may be eight journals, or four and a block, or two blocks", "make some of them ideal"});
     }
 
     void name_states() {
@@ -361,6 +381,9 @@ private:
             if (is_quantity) refuse_that(node, "has the column of a quantity", {fmt::format("results have a {} already", name), "rename it"});
             if (!names.insert(linkage.series[at].name).second) refuse_that(node, "shares a column with another", {fmt::format("results would have two {}", name), "rename it"});
         };
+        for (std::string const& closure : linkage.closures) {
+            for (Quantity const of : {Quantity::peak_apex_force, Quantity::mean_apex_force}) names.insert(keep(name_of_joint_quantity(of, closure.substr(closure.find('.') + 1))));
+        }
         for (GivenBody const& body : bodies_) {
             LinkageBody const& of = plan.body[body.place];
             auto const name = [&](int coordinate, std::string_view place, char const* unit, std::string_view rate, char const* rate_unit) {

@@ -13,6 +13,7 @@
 #include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
 #include "host/base/text.hpp"
+#include "host/config/linkages.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/units.hpp"
@@ -389,17 +390,24 @@ std::vector<GivenLoad> given_loads(Reading& reading) {
 void refuse_ungiven(std::string_view where, std::string_view name, Scene const& scene) {
     auto const dot = name.rfind('.');
     if (dot == name.npos) return;
-    std::string_view const load = name.substr(0, dot), own = name.substr(dot + 1);
-    auto const table = std::ranges::find(load_tables, load.substr(0, load.find('.')));
-    if (table == std::end(load_tables)) return;
-    LoadNumber const* const number = find_load_number(static_cast<LoadKind>(table - std::begin(load_tables)), own);
-    if (number == nullptr) return;
-    auto const is_load = [&](SceneLoads::Row const& row) { return row.name == load; };
-    bool const has_preset = number->rule != Rule::positive && number->kind != LoadKind::way_ends;
-    std::string const advice = has_preset ? fmt::format("add {} = {}", own, number->preset) : fmt::format("add {}", own);
-    if (scene.loads == nullptr || std::ranges::none_of(scene.loads->rows(), is_load))
-        throw SceneError(fmt::format("{}: {} is of no load of the scene (there is no [{}]); add that, or use the name of another", where, name, load));
-    throw SceneError(fmt::format("{}: {} is not given in [{}] (a number must be given to vary); {}", where, name, load, advice));
+    std::string_view const part = name.substr(0, dot), own = name.substr(dot + 1), table = part.substr(0, part.find('.'));
+    auto const is_it = [&](auto const& row) { return row.name == part; };
+    bool is_there = false;
+    std::string advice = fmt::format("add {}", own);
+    if (auto const loads = std::ranges::find(load_tables, table); loads != std::end(load_tables)) {
+        LoadNumber const* const number = find_load_number(static_cast<LoadKind>(loads - std::begin(load_tables)), own);
+        if (number == nullptr) return;
+        if (number->rule != Rule::positive && number->kind != LoadKind::way_ends) advice += fmt::format(" = {}", number->preset);
+        is_there = scene.loads != nullptr && std::ranges::any_of(scene.loads->rows(), is_it);
+    } else {
+        auto const number = std::ranges::find_if(part_numbers(), [&](PartNumber const& one) { return one.table == table && one.name == own; });
+        Linkage const* const linkage = linkage_of(scene.parts.mechanism);
+        if (linkage == nullptr || number == part_numbers().end()) return;
+        if (number->rule != Rule::positive) advice += " = 0";
+        is_there = std::ranges::any_of(linkage->rows, is_it);
+    }
+    if (!is_there) throw SceneError(fmt::format("{}: {} is of no {} of the scene (there is no [{}]); add that, or use the name of another", where, name, table, part));
+    throw SceneError(fmt::format("{}: {} is not given in [{}] (a number must be given to vary); {}", where, name, part, advice));
 }
 
 void read_loads(Reading& reading) {

@@ -22,7 +22,7 @@ BlockRequest block_request(Scene const& scene) {
     OrbitSchedule const schedule = orbit_schedule(scene);
     BlockRequest request{scene.integrator,
                          scene.sample_times,
-                         scene.quantities,
+                         kept_for(outputs_of(scene.parts.mechanism), scene.quantities),
                          scene.series,
                          predicted_cost(scene.parts.mechanism),
                          schedule.timing,

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <ostream>
 
 #include <fmt/format.h>
 
+#include "host/backend/linkage_numbers.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
@@ -167,6 +169,31 @@ void add_modes(std::vector<FaceMode>& modes, int face, std::array<bool, 4> const
 }  // namespace
 
 std::string ApexPair::name() const { return fmt::format("P{} {}", apex + 1, face_names[face]); }
+
+std::vector<JointForce> joint_forces(StateTable const& table, std::size_t row, ProbeResult const& result) {
+    Linkage const* const linkage = linkage_of(table.mechanism);
+    std::vector<JointForce> forces;
+    for (int k = 0; linkage != nullptr && k < linkage->plan.closures; ++k) {
+        LinkageClosure const& of = linkage->plan.closure[k];
+        if (!of.has_clearance()) continue;
+        auto const body = [&](int side) { return of.body[side] == LinkageBody::ground ? std::string(ground_name) : linkage->bodies[static_cast<std::size_t>(of.body[side])]; };
+        std::string const& name = linkage->closures[static_cast<std::size_t>(k)];
+        auto const [x, y] = place_in_joint(linkage->plan, table.inputs[row], k);
+        JointForce joint{name.substr(name.find('.') + 1), body(0), body(1), x, y, nan, -std::numeric_limits<double>::infinity(), 0, nan, nan};
+        for (int pair = of.pair; pair < of.pair + of.pairs(); ++pair) {
+            joint.depth = std::max(joint.depth, result.penetration_y[pair]);
+            joint.normal_force += result.normal_force_y[pair];
+        }
+        if (of.kind == ClosureKind::block) {
+            joint.x = nan, joint.y = x, joint.tilt = y;
+        } else {
+            double const along = joint.normal_force > 0 ? -joint.normal_force / std::hypot(x, y) : 0;
+            joint.force_x = along * x + 0.0, joint.force_y = along * y + 0.0;
+        }
+        forces.push_back(std::move(joint));
+    }
+    return forces;
+}
 
 Explanation explain(StateTable const& table, std::size_t row, ProbeResult const& result) {
     MechanismInfo const& mechanism = info(table.mechanism);

@@ -75,6 +75,17 @@ struct Explanation {
     ApexPair const& nearest() const { return *std::ranges::max_element(pairs, {}, &ApexPair::depth); }  // the deepest
 };
 
+/// A joint of a linkage with clearance.
+struct JointForce {
+    std::string joint, first, second;  // "crank_pin", the bodies of journal or block and of bearing or walls
+    double x, y, tilt;                 // the journal in its bearing, along the ground's axes [m]; of a block y across its walls and the tilt [rad], else NaN
+    double depth, normal_force;        // of a block that of the deepest corner, and the sum of all [m], [N]
+    double force_x, force_y;           // the normal force on the first body, along the ground's axes; of a block NaN [N]
+    bool touches() const { return depth > 0; }
+};
+/// Of a linkage; empty for other mechanisms.
+std::vector<JointForce> joint_forces(StateTable const& table, std::size_t row, ProbeResult const& result);
+
 /// @throws SceneError for a mechanism whose slider has no eight apices
 Explanation explain(StateTable const& table, std::size_t row, ProbeResult const& result);
 

@@ -46,6 +46,8 @@ template <class Real> struct LinkageContact : ContactTotals<Real> {
         for (int i = 1; i < quads; ++i) force = force + sum(normal_force[i]);
         return force;
     }
+    /// Of a closure: observers keep the forces of closures where those of sliders have their apices'.
+    SLIDEWAY_FN Real apex_force(int closure) const { return force[closure]; }
     /// Nothing switches.
     SLIDEWAY_FN Real pattern() const { return Real(0.0); }
 
@@ -65,7 +67,7 @@ inline constexpr int linkage_series_count = static_cast<int>(LinkageSeries::firs
 
 /// All that a state of a linkage tells beside its derivative.
 template <class Real> struct LinkageReport : MechanismReport<Real> {
-    static constexpr int apices = 0;
+    static constexpr int apices = LinkagePlan::most_closures;  // as many forces are kept
     LinkageContact<Real> contact;
 
     /// No angle is small by nature.

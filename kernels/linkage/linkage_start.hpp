@@ -13,7 +13,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// method from the angles that bodies are given, with the least motion, each coordinate in the size of its body; rates likewise.
 class LinkageStart {
 public:
-    SLIDEWAY_HD LinkageStart(LinkagePlan const& plan, LinkageParameters<double> const& p, double speed) : plan_(plan), p_(p), speed_(speed) {
+    /// @param given a state that is not to be moved: its loops close, or they are at fault; nullptr: none
+    SLIDEWAY_HD LinkageStart(LinkagePlan const& plan, LinkageParameters<double> const& p, double speed, double const* given = nullptr)
+        : plan_(plan), p_(p), speed_(speed) {
+        if (given != nullptr) {
+            for (int i = 0; i < plan.states(); ++i) state_[i] = given[i];
+            look_at_loops();
+            return;
+        }
         for (int i = 0; i < plan.bodies; ++i) {
             LinkageBody const& of = plan.body[i];
             if (of.joint != TreeJoint::floating) {
@@ -41,6 +48,12 @@ public:
     SLIDEWAY_HD AssemblyFault fault() const { return fault_; }
     SLIDEWAY_HD int worst() const { return worst_; }
     SLIDEWAY_HD double distance() const { return distance_; }
+    SLIDEWAY_HD double rate() const { return rate_; }
+    /// Where a journal is in its bearing, along the ground's axes; or a block across its walls, and its tilt.
+    SLIDEWAY_HD Vec2<double> place_in(int closure) const { return place_of(gap_of(motion(), closure), closure); }
+    SLIDEWAY_HD void put_as_it_is(double* state) const {
+        for (int i = 0; i < plan_.states(); ++i) state[i] = state_[i];
+    }
 
     /// NaN where it cannot be put together.
     SLIDEWAY_HD void put(double* state) const {
@@ -102,7 +115,31 @@ private:
     }
     SLIDEWAY_HD double size_of(int block) const { return p_.closure[block].half_length; }
 
+    /// Of a state that is given.
+    SLIDEWAY_HD void look_at_loops() {
+        auto const at = motion();
+        double most = 1e-6;  // of the largest body; more than a few digits that were cut off come to
+        for (int k = 0; k < plan_.closures; ++k) {
+            if (plan_.closure[k].has_clearance()) continue;
+            double const open = detail::length(gap_of(at, k)), opens = detail::length(rate_of(at, k));
+            double const share = max(open, opens / p_.rate_scale) / p_.reach;
+            if (share <= most) continue;
+            most = share, worst_ = k, distance_ = open, rate_ = opens, fault_ = AssemblyFault::open;
+        }
+    }
+
+    /// Exactly, journals and blocks where they are asked for; where lengths do not allow that, ideal joints exactly and those with clearance within it.
     SLIDEWAY_HD void close() {
+        double begun[LinkagePlan::most_states];
+        for (int i = 0; i < plan_.states(); ++i) begun[i] = state_[i];
+        close_exactly();
+        if (fault_ == AssemblyFault::none || !plan_.has_clearance()) return;
+        for (int i = 0; i < plan_.states(); ++i) state_[i] = begun[i];
+        fault_ = AssemblyFault::none;
+        close_within();
+    }
+
+    SLIDEWAY_HD void close_exactly() {
         int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
         double const enough = 4e-16 * p_.reach, good = 1e-11 * p_.reach;
         double former = 1e300;
@@ -122,7 +159,10 @@ private:
             move(gap, 0, first);
         }
         if (!(distance_ <= good)) fault_ = AssemblyFault::open;
-        if (m == 0 || fault_ != AssemblyFault::none) return;
+        if (m > 0 && fault_ == AssemblyFault::none) close_rates();
+    }
+
+    SLIDEWAY_HD void close_rates() {
         auto const at = motion();
         if (!factor(at)) {
             fault_ = AssemblyFault::redundant;
@@ -133,10 +173,71 @@ private:
             auto const apart = rate_of(at, k);
             gap[2 * k] = apart.x, gap[2 * k + 1] = apart.y;
         }
-        move(gap, 1, first);
+        move(gap, 1, plan_.is_driven ? 1 : 0);
     }
 
-    /// J W Jᵀ, W the squared sizes of the coordinates.  @return whether it has an inverse
+    /// The least sum of squares of what joints with clearance are apart, each in its clearance and with a weight, ideal ones closed: Newton's method, with
+    /// rows that give way, the more where it overshoots (Levenberg and Marquardt).  Weights grow where joints are farther out, which leads to the least largest share of a clearance.
+    /// Source: Lawson (1961), in Rice, The approximation of functions, volume 2.
+    SLIDEWAY_HD void close_within() {
+        constexpr double least_weight = 1e-3, enough = 0.9;
+        constexpr int turns = 400, turns_alike = 30, turns_of_rates = 20;
+        int const first = plan_.is_driven ? 1 : 0;
+        double weight[LinkagePlan::most_closures], share[LinkagePlan::most_closures], gap[rows], heaviest = 1, former = 1e300, last_cost = 1e300, caution = 1;
+        for (int k = 0; k < plan_.closures; ++k) weight[k] = 1;
+        for (int turn = 0;; ++turn) {
+            auto const at = motion();
+            double widest = 0, open = 0, farthest = 0, cost = 0;
+            int worst = 0, ideal = 0;
+            for (int k = 0; k < plan_.closures; ++k) {
+                auto const apart = gap_of(at, k);
+                gap[2 * k] = apart.x, gap[2 * k + 1] = apart.y;
+                bool const plays = plan_.closure[k].has_clearance();
+                double const out = plays ? reach_of(place_of(apart, k), k) : detail::length(apart);
+                share[k] = plays ? out / p_.closure[k].clearance : 0;
+                cost += weight[k] * share[k] * share[k];
+                if (plays && !(share[k] <= widest)) widest = share[k], worst = k, farthest = out - p_.closure[k].clearance;
+                if (!plays && !(out <= open)) open = out, ideal = k;
+            }
+            bool const closes = open <= 1e-11 * p_.reach, fits = widest <= 1 + 1e-9;
+            worst_ = closes ? worst : ideal, distance_ = closes ? farthest : open;
+            if (turn == turns || (closes && widest <= enough && ::fabs(widest - former) < 1e-6)) {
+                if (!closes || !fits) fault_ = AssemblyFault::open;
+                break;
+            }
+            former = widest;
+            caution = cost > last_cost ? min(4 * caution, 1e6) : max(0.5 * caution, 1.0);
+            last_cost = cost;
+            double grown = 0;
+            for (int k = 0; k < plan_.closures; ++k) {
+                if (turn >= turns_alike && plan_.closure[k].has_clearance()) weight[k] = max(weight[k] / heaviest * share[k] / max(widest, 1e-300), least_weight);
+                grown = max(grown, weight[k]);
+                soften(k, caution / weight[k]);
+            }
+            heaviest = grown;
+            if (!factor(at)) {
+                fault_ = AssemblyFault::redundant;
+                break;
+            }
+            move(gap, 0, first);
+        }
+        for (int k = 0; k < plan_.closures; ++k) soften(k, 1);
+        for (int turn = 0; fault_ == AssemblyFault::none && turn < turns_of_rates; ++turn) close_rates();
+    }
+    SLIDEWAY_HD void soften(int closure, double times) {
+        double const play = p_.closure[closure].clearance / p_.play;
+        soft_[closure] = plan_.closure[closure].has_clearance() ? 1e-4 * times * play * play : 0;
+    }
+    SLIDEWAY_HD Vec2<double> place_of(Vec2<double> gap, int closure) const {
+        if (plan_.closure[closure].kind == ClosureKind::block) gap.y = gap.y / size_of(closure);
+        return gap + p_.closure[closure].offset;
+    }
+    /// How far a journal is from its bearing's centre, or a corner from where it is in the middle.
+    SLIDEWAY_HD double reach_of(Vec2<double> place, int closure) const {
+        return plan_.closure[closure].kind == ClosureKind::block ? ::fabs(place.x) + size_of(closure) * ::fabs(place.y) : detail::length(place);
+    }
+
+    /// J W Jᵀ, W the squared sizes of the coordinates, softer by what rows give way.  @return whether it has an inverse
     SLIDEWAY_HD bool factor(Motion const& at) {
         int const m = 2 * plan_.closures, first = plan_.is_driven ? 1 : 0;
         for (int k = 0; k < plan_.closures; ++k) put_rows(at, k, jacobian_[2 * k], jacobian_[2 * k + 1]);
@@ -147,6 +248,9 @@ private:
                 factors_.entry[i][j] = sum;
             }
         }
+        double stiffest = 0;
+        for (int i = 0; i < m; ++i) stiffest = max(stiffest, factors_.entry[i][i]);
+        for (int i = 0; i < m; ++i) factors_.entry[i][i] += soft_[i / 2] * stiffest;
         bool whole = true;
         factors_.factor(PlanTable(plan_), m, 1e-10, [&](int row, bool singular) {
             if (singular && whole) worst_ = row / 2, whole = false;
@@ -178,7 +282,8 @@ private:
     bool waits_[LinkagePlan::most_bodies] = {};  // bodies that float and have no place yet
     double jacobian_[rows][n];
     CholeskyFactors<rows, double> factors_;
-    double distance_ = 0;
+    double soft_[LinkagePlan::most_closures] = {};  // by how much rows give way, over the stiffest
+    double distance_ = 0, rate_ = 0;
     int worst_ = 0;
     AssemblyFault fault_ = AssemblyFault::none;
 };

@@ -35,6 +35,9 @@ class Explanation:
         force: of the way on the slider, friction included, along the ground's axes [N].
         torque: of that about the centre of the slider's hole, likewise [N m].
         sizes: slider_length, way_width and way_depth [m].
+        joints: of a linkage, which has none of these but law and damping, its joints with clearance: joint, first and second body, whether it touches,
+            x and y of the journal in its bearing (of a block y across its walls, and tilt) [m], depth [m], normal_force, and that on the first body along
+            the ground's axes, force_x and force_y [N].
     """
 
     member: int
@@ -49,12 +52,14 @@ class Explanation:
     force: NDArray[np.float64]
     torque: NDArray[np.float64]
     sizes: dict[str, float]
+    joints: tuple[dict[str, Any], ...] = ()
 
     def table(self) -> pd.DataFrame:
-        """The pairs as a table of pandas, one row a pair."""
+        """The pairs, or a linkage's joints, as a table of pandas, one row each."""
         import pandas as pd
 
-        return pd.DataFrame(list(self.pairs)).set_index(["apex", "face"])
+        rows, index = (list(self.joints), ["joint"]) if self.joints else (list(self.pairs), ["apex", "face"])
+        return pd.DataFrame(rows).set_index(index)
 
 
 @arguments.one_line
@@ -88,7 +93,10 @@ def explain(result: StrPath | xr.Dataset, member: int | None = None, time: float
         return np.nan if value is None else float(value)
 
     def vector(name: str) -> NDArray[np.float64]:
-        return np.array([number(value) for value in how[name]])
+        return np.array([number(value) for value in how.get(name, [None] * 3)])
+
+    def rows(name: str) -> tuple[dict[str, Any], ...]:
+        return tuple({key: np.nan if value is None else value for key, value in row.items()} for row in how.get(name, []))
 
     return Explanation(
         member=int(said["member"]),
@@ -97,10 +105,11 @@ def explain(result: StrPath | xr.Dataset, member: int | None = None, time: float
         state={name: number(value) for name, value in row["state"].items()},
         law=str(how["law"]),
         damping=str(how["damping"]),
-        pairs=tuple({name: number(value) if value is None else value for name, value in pair.items()} for pair in how["pairs"]),
-        modes=tuple(how["modes"]),
+        pairs=rows("pairs"),
+        modes=rows("modes"),
         friction=vector("friction"),
         force=vector("force"),
         torque=vector("torque"),
-        sizes=dict(how["joint"]),
+        sizes=dict(how.get("joint", {})),
+        joints=rows("joints"),
     )

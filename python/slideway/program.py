@@ -58,11 +58,12 @@ def shards_of(output: str) -> str:
     return output + ".shards" if os.path.isdir(output + ".shards") else os.path.realpath(output) + ".shards"
 
 
-def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] = (0,)) -> str:
+def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] = (0,), written: Callable[[str], str] = str) -> str:
     """Calls a command that is soon done.
 
     Args:
         good: exit codes that are no error.
+        written: makes of a line that it says what the user reads.
 
     Returns:
         What it wrote to stdout.
@@ -73,7 +74,7 @@ def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] 
     found = find_program(program)
     done = _started(subprocess.run, [found, *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
     if done.returncode not in good:
-        error = error_of(done.returncode, _last_line(done.stderr.splitlines()), "", found)
+        error = error_of(done.returncode, written(_last_line(done.stderr.splitlines())), "", found)
         error.stderr = done.stderr
         raise error
     return str(done.stdout)

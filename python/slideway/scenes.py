@@ -59,6 +59,11 @@ def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) 
     return resolved
 
 
+def resolved_of(text: str) -> dict[str, Any]:
+    """A resolved scene as the program prints it, as nested dictionaries."""
+    return tomllib.loads(text)
+
+
 def has_rows_of_inputs(study: dict[str, Any]) -> bool:
     """Whether the members of a scene's [study] are rows of ``Ensemble.run(inputs=...)``: a table without a file."""
     return study.get("table") == ""

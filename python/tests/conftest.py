@@ -55,6 +55,7 @@ recipes: dict[str, tuple[str, dict[str, object]]] = {
     "correlations": ("tolerance_0.1mm.toml", {
         "study.design": "lhs", "study.members": 64, "study.duration": "20 ms"}),
     "stored": ("ensemble_starts.toml", {"study.members": 64, "study.duration": "20 ms", "study.store": "statistics"}),
+    "linkage": ("four_bar_journals.toml", {"study.members": 3, "study.revolutions": 0.5}),
     "failing": ("ensemble_starts.toml", {
         "study.members": 8, "study.samples": 11, "study.duration": "20 ms", "integrator.max_steps": 40}),
 }

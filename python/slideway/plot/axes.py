@@ -11,6 +11,7 @@ from typing import Any, Literal, cast
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import Collection, PathCollection, QuadMesh
@@ -54,8 +55,20 @@ def png(panel: Panel, height: float) -> bytes:
     figure = Figure((6.2, height), layout="constrained")
     draw(panel, figure.subplots())
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", dpi=125)
+    figure.savefig(stream, format="png", dpi=125, metadata={"Software": "slideway"})
     return stream.getvalue()
+
+
+def animated(panels: Sequence[Panel], seconds: float, ax: Axes | None) -> FuncAnimation:
+    """Panels one after the other on one axis, for so long in all."""
+    shown_on = axis(ax)
+
+    def show(number: int) -> list[Any]:
+        shown_on.clear()
+        draw(panels[number], shown_on)
+        return []
+
+    return FuncAnimation(cast("Figure", shown_on.figure), show, len(panels), interval=1e3 * seconds / len(panels))
 
 
 def picture(panels: Sequence[Panel], columns: int = 1, height: float = 3.4, below: int = 0, width: float = 5.4, **options: Any) -> str:

@@ -141,8 +141,9 @@ def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
             return Verdict("none", "No energy audit", ["No member finished, so there is nothing to audit."])
         wanted = "energy_residual, drive_work, friction_loss and damping_loss"
         return Verdict("none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."])
-    law = slideway.scene(result).get("contact", {}).get("law")
-    name = "The contact law of corners" if law is None else f"The {law} law"
+    scene = slideway.scene(result)
+    law = scene.get("contact", {}).get("law")
+    name = f"The contact law of {'joints' if 'link' in scene else 'corners'}" if law is None else f"The {law} law"
     if _switches(result, law):
         return _of_switching(terms, name)
     if law == "rigid":

@@ -39,8 +39,10 @@ def of_scene(result: xr.Dataset, members: int) -> Facts:
     facts = [
         ("study", STUDIES.get(str(study.get("kind")), str(study.get("kind")))),
         ("mechanism", str(result.attrs.get("mechanism_meaning", kind)) + _speed(scene)),
+        ("bodies", ", ".join(scene.get("body", {}))),
+        ("joints", ", ".join(f"{name} ({_joint(link)})" for name, link in scene.get("link", {}).items())),
         ("clearance per side", "" if any(key.startswith("joint.clearance") for key in varied(result)) else _clearance(joint)),
-        ("contact law", _law(result, scene.get("contact", {}))),
+        ("contact law", _law(result, scene)),
         ("friction", _friction(scene.get("friction", {}))),
         ("members", counted(members, "member") + _design(study)),
         ("time", _time(study)),
@@ -87,8 +89,14 @@ def _clearance(joint: dict[str, Any]) -> str:
     return f"{number(gaps[0])} mm" if gaps else ""
 
 
-def _law(result: xr.Dataset, contact: dict[str, Any]) -> str:
-    words = [str(contact.get("law", "point law at each corner"))]
+def _joint(link: dict[str, Any]) -> str:
+    gap = f", clearance {number(1e3 * link['clearance'])} mm" if "clearance" in link else ""
+    return f"{link['kind']} of {link['first']} and {link['second']}{gap}"
+
+
+def _law(result: xr.Dataset, scene: dict[str, Any]) -> str:
+    contact = scene.get("contact", {})
+    words = [str(contact.get("law", "point law of each joint" if "link" in scene else "point law at each corner"))]
     if "law" in contact and "contact_law_meaning" in result.attrs:
         words[0] += f": {result.attrs['contact_law_meaning']}"
     words += [f"{key} {number(value)}" for key, value in contact.items() if key not in CONTACT]

@@ -47,7 +47,7 @@ def figures(result: xr.Dataset, every: Sequence[Column], seen: dict[int, Poses],
     made: list[Figure | None] = []
     if seen:
         made += [_series(result, seen, "series", "Time series", STATES), _series(result, seen, "rates", "Velocities", RATES)]
-        made += [None if sweep else _bands(result), _orbit(result), _forces(result, seen), _spectra(result)]
+        made += [None if sweep else bands(result), _orbit(result), _forces(result, seen), _spectra(result)]
     if "status" in result:
         made.append((_bifurcation(result, sweep) if sweep else None) or _poincare(result))
         made += [] if sweep else _exponents(result)
@@ -59,7 +59,7 @@ def figures(result: xr.Dataset, every: Sequence[Column], seen: dict[int, Poses],
 Variants = Iterable[tuple[str, Panel | Sequence[Panel] | None]]
 
 
-def _of(name: str, title: str, caption: str, variants: Variants, height: int = 380, choice: str = "Show") -> Figure | None:
+def of(name: str, title: str, caption: str, variants: Variants, height: int = 380, choice: str = "Show") -> Figure | None:
     """A figure of the variants that there are."""
     kept = [Variant(label, [panels] if isinstance(panels, Panel) else panels) for label, panels in variants if panels]
     return Figure(name, title, caption, kept, height, choice) if kept else None
@@ -89,7 +89,7 @@ def _series(result: xr.Dataset, seen: dict[int, Poses], name: str, title: str, g
         return found + [panel for one in extra if (panel := panel_of(series.time_series, result, one, member))]
 
     samples = result.sizes["sample"]
-    caption = f"{counted(samples, 'sample')}, every {_spacing(result)}."
+    caption = f"{counted(samples, 'sample')}, every {spacing(result)}."
     if too_coarse(result, list(seen)):
         caption += " That is far coarser than the contacts: samples are points, for a line between them would show what never was."
     if name == "series":
@@ -99,7 +99,7 @@ def _series(result: xr.Dataset, seen: dict[int, Poses], name: str, title: str, g
     if samples > MOST_POINTS:
         caption += f" Of so many, the least and the largest of each short stretch are drawn (at most {MOST_POINTS:,} points a curve)."
     variants = ((label, panels(member)) for member, label in chosen(result).items())
-    return _of(name, title, caption, variants, 110 + 150 * (len(rows) + len(extra)), "Member")
+    return of(name, title, caption, variants, 110 + 150 * (len(rows) + len(extra)), "Member")
 
 
 def _states(result: xr.Dataset, member: int, pose: Poses, names: Sequence[str]) -> Panel:
@@ -118,13 +118,13 @@ def _states(result: xr.Dataset, member: int, pose: Poses, names: Sequence[str]) 
     return Panel(marks, x, Axis(", ".join(names) + (" from the way's axis" if "y" in names and may_be_misaligned(result) else ""), unit))
 
 
-def _spacing(result: xr.Dataset) -> str:
+def spacing(result: xr.Dataset) -> str:
     places, unit = sample_axis(result)
     step = float((places[-1] - places[0]) / max(len(places) - 1, 1))
     return f"{number(step)} s" if unit == "s" else f"{number(360 * step)} degrees that the crank turns"
 
 
-def _bands(result: xr.Dataset) -> Figure | None:
+def bands(result: xr.Dataset) -> Figure | None:
     """Where the members are at each time; None where there are too few members."""
     if result.sizes["member"] < 10:
         return None
@@ -133,14 +133,14 @@ def _bands(result: xr.Dataset) -> Figure | None:
     caption = f"At each {'time' if 'turned' not in result.coords else 'angle'}, of the {counted(thin.sizes['member'], 'member')} that got there."
     caption += f" Every {step}th sample." if step > 1 else ""
     names = [name for name in _names(result) if name not in COUNTS]
-    return _of("bands", "All members over time", caption, ((name, panel_of(series.time_series, thin, name)) for name in names), choice="Series")
+    return of("bands", "All members over time", caption, ((name, panel_of(series.time_series, thin, name)) for name in names), choice="Series")
 
 
 def _orbit(result: xr.Dataset) -> Figure | None:
     """Path of the slider's centre in the gap, seen along the way."""
     caption = "The slider's centre, seen along the way, from a dot, where it starts. Dotted: how far it can go without tilt."
     variants = ((label, panel_of(orbits.orbit_yz, result, member)) for member, label in chosen(result).items())
-    return _of("orbit", "Orbit in the gap", caption, variants, 460, "Member")
+    return of("orbit", "Orbit in the gap", caption, variants, 460, "Member")
 
 
 def _forces(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
@@ -155,7 +155,7 @@ def _forces(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
                 row[pose.samples] = pose.modes[:, k]
             some = some.assign({name: (("member", "sample"), touching)})
     caption = f"Of all samples of {counted(some.sizes['member'], 'member')}, by the hardest contact of each."
-    return _of("forces", "Contact forces by mode", caption, [("all", panel_of(series.force_histogram, some))])
+    return of("forces", "Contact forces by mode", caption, [("all", panel_of(series.force_histogram, some))])
 
 
 def _spectra(result: xr.Dataset) -> Figure | None:
@@ -173,7 +173,7 @@ def _spectra(result: xr.Dataset) -> Figure | None:
 
     caption = ("One-sided amplitude spectra with a Hann window. The samples are points of the motion, not means over their spacing: "
                "what is faster than half the sampling rate is folded back.")  # fmt: skip
-    return _of("spectra", "Spectra of accelerations", caption, ((label, panel(member)) for member, label in chosen(result).items()), choice="Member")
+    return of("spectra", "Spectra of accelerations", caption, ((label, panel(member)) for member, label in chosen(result).items()), choice="Member")
 
 
 def _bifurcation(result: xr.Dataset, sweep: Sweep) -> Figure | None:
@@ -185,7 +185,7 @@ def _bifurcation(result: xr.Dataset, sweep: Sweep) -> Figure | None:
     caption = f"{counted(len(sweep.columns), 'column')}, the states of all members at their sections."
     if below:
         caption += " Below: each member's largest exponent with its 95 % interval, and the median of each column."
-    return _of("bifurcation", "Bifurcation diagram", caption, variants or [("exponent", lower)], 600 if below else 420, "State")
+    return of("bifurcation", "Bifurcation diagram", caption, variants or [("exponent", lower)], 600 if below else 420, "State")
 
 
 def _poincare(result: xr.Dataset) -> Figure | None:
@@ -202,7 +202,7 @@ def _poincare(result: xr.Dataset) -> Figure | None:
     if count > MOST_POINTS:
         caption += f" An even choice of {MOST_POINTS:,} is drawn."
     variants = ((f"{up} over {across}", panel_of(orbits.poincare, result, across, up)) for across, up in MAPS)
-    return _of("poincare", "Poincaré map", caption, variants, 480, "Plane")
+    return of("poincare", "Poincaré map", caption, variants, 480, "Plane")
 
 
 def _exponents(result: xr.Dataset) -> list[Figure | None]:
@@ -216,11 +216,11 @@ def _exponents(result: xr.Dataset) -> list[Figure | None]:
         span = " to ".join(dict.fromkeys((number(times.min()), number(times.max()))))
         caption = f"Finite-time exponents of {counted(int(ended.sum()), 'member')} over {span} s each, and their mean with its 95 % interval."
         variants = ((f"λ{lowered(k)}", panel_of(chaos.exponent_histogram, result, exponent=k)) for k in numbers)
-        found.append(_of("exponents", "Lyapunov exponents", caption, variants, choice="Exponent"))
+        found.append(of("exponents", "Lyapunov exponents", caption, variants, choice="Exponent"))
     if "lyapunov_history" in result and result.sizes["history"] >= 4:
         caption = "Running exponents. The fit is λ + a/t over the second half of the mean: what the start leaves behind decays as 1/t."
         variants = ((f"λ{lowered(k)}", _convergence(result.isel(member=ended), k)) for k in numbers)
-        found.append(_of("convergence", "Convergence of the exponents", caption, variants, choice="Exponent"))
+        found.append(of("convergence", "Convergence of the exponents", caption, variants, choice="Exponent"))
     return found
 
 
@@ -261,7 +261,7 @@ def _quantities(result: xr.Dataset, sweep: Sweep) -> Figure | None:
 
     caption = f"Of the members that finished, and the median of each of {counted(len(sweep.columns), 'column')}."
     variants = ((name, panel(name, unit, values)) for name, unit, values in of_sweep(result))
-    return _of("columns", f"Quantities over {sweep.key}", caption, variants, choice="Quantity")
+    return of("columns", f"Quantities over {sweep.key}", caption, variants, choice="Quantity")
 
 
 def _quantiles(result: xr.Dataset, every: Sequence[Column]) -> Figure | None:
@@ -275,7 +275,7 @@ def _quantiles(result: xr.Dataset, every: Sequence[Column]) -> Figure | None:
         caption += "The members are not stored: the function lies in the band, and is known at its corners."
     caption += " Dots: quantiles of the members that finished; bars: their 95 % intervals, as far as the design allows some."
     variants = ((one.name, tolerance.distribution([one], *limits, trials, whose(result))) for one in drawn)
-    return _of("quantiles", "Distribution functions", caption, variants, choice="Quantity")
+    return of("quantiles", "Distribution functions", caption, variants, choice="Quantity")
 
 
 def _sensitivity(result: xr.Dataset) -> Figure | None:
@@ -297,7 +297,7 @@ def _sensitivity(result: xr.Dataset) -> Figure | None:
         other = next((str(d) for d in group[name + end].dims if d != "input"), None)
         named += [(f"{name}[{label}]", name, str(label)) for label in group[other].values] if other else [(name, name, None)]
     variants = ((full, panel_of(tolerance.sensitivity, group, name, label)) for full, name, label in named)
-    return _of("sensitivity", "What drives the scatter", caption, variants, 140 + 42 * group.sizes["input"], "Quantity")
+    return of("sensitivity", "What drives the scatter", caption, variants, 140 + 42 * group.sizes["input"], "Quantity")
 
 
 def _histograms(every: Sequence[Column]) -> Figure | None:
@@ -312,7 +312,7 @@ def _histograms(every: Sequence[Column]) -> Figure | None:
         return Panel([Bars(factor * edges, counts, None, tint, 1.0), mean], Axis(words_of(one.name), unit), Axis("members"))
 
     shown = [one for one in every if one.count >= 5 and one.high > one.low and (one.histogram or one.values is not None)]
-    return _of("histograms", "How quantities scatter", "Counts of the members that finished.", ((one.name, panel(one)) for one in shown), choice="Quantity")
+    return of("histograms", "How quantities scatter", "Counts of the members that finished.", ((one.name, panel(one)) for one in shown), choice="Quantity")
 
 
 def _bins(values: np.ndarray, most: int = 60) -> np.ndarray:
@@ -333,7 +333,7 @@ def _modes(every: Sequence[Column]) -> Figure | None:
     bars = [Rows(np.array([100 * share]), f"{name}: {percent(share)}", class_colours[name]) for name, share in shares.items()]
     caption = f"By the stiffest contact at each time; free is flight without any. Mean of {counted(next(iter(times.values())).count, 'member')}."
     panel = Panel(bars, Axis("share of the time", "%", low=0, high=100), Axis("", ticks=named([""])), stacked=True)
-    return _of("modes", "Time by contact mode", caption, [("all", panel)], 210)
+    return of("modes", "Time by contact mode", caption, [("all", panel)], 210)
 
 
 def _balance(terms: Balance, whose: str) -> Figure | None:
@@ -350,4 +350,4 @@ def _balance(terms: Balance, whose: str) -> Figure | None:
             for name, amount, tint in parts if amount != 0]  # fmt: skip
     caption = f"Means over {whose}. Both bars are as long as each other, for the residual is what closes the balance."
     panel = Panel(bars, Axis("per member", unit), Axis("", ticks=named(["went to", "came from"])), stacked=True)
-    return _of("balance", "Balance of energy", caption, [("all", panel)], 250)
+    return of("balance", "Balance of energy", caption, [("all", panel)], 250)

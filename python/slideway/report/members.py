@@ -20,7 +20,8 @@ def chosen(result: xr.Dataset) -> dict[int, str]:
     numbers = result["member"].values
     ended = np.flatnonzero(slideway.finished(result).values)
     if len(ended) == 0:
-        began = np.isfinite(result["y"].transpose("member", "sample").values[:, 0])
+        series = next(data for data in result.data_vars.values() if set(data.dims) == {"member", "sample"})
+        began = np.isfinite(series.transpose("member", "sample").values[:, 0])
         ran = np.flatnonzero(began & (slideway.statuses(result).values != "not_run"))
         return {int(numbers[k]): label(result, int(numbers[k])) for k in ran[:MOST]}
     picks = {int(numbers[ended[0]]): ""}

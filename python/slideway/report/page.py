@@ -19,7 +19,7 @@ from slideway.members import with_members
 from slideway.palette import style_sheet
 from slideway.results import StrPath
 
-from . import animation, energy, poses, sections, statuses
+from . import animation, energy, linkages, poses, sections, statuses
 from .figures import figures as figures_of
 from .findings import exponent_words, yields
 from .markup import Section, data_block, tag, words
@@ -79,12 +79,12 @@ def _may_replace(path: Path) -> bool:
     return not head or GENERATOR in head
 
 
-def replace(path: Path, text: str) -> None:
+def replace(path: Path, content: str | bytes) -> None:
     """Puts a text in a file that others see old or new, never in part; its unfinished name is this call's own."""
     descriptor, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
     try:
-        with open(descriptor, "w", encoding="utf-8") as file:
-            file.write(text)
+        with open(descriptor, "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
         os.chmod(part, _usual_mode(path))
         os.replace(part, path)
     except BaseException:
@@ -110,11 +110,11 @@ def html_of(result: xr.Dataset) -> str:
     judged = audit.verdict
     resolved = slideway.resolution(result)
     film = _film(result)
-    figures = figures_of(result, every, {} if isinstance(film, str) else film[0], audit)
+    figures = linkages.figures(result) | figures_of(result, every, {} if isinstance(film, str) else film[0], audit)
     plots = [figure for name, figure in figures.items() if name != "balance"]
     parts = [
         sections.endings_section(result, ended),
-        animation.animation_section(film if isinstance(film, str) else film[1]),
+        linkages.film_section(result) if linkages.is_linkage(result) else animation.animation_section(film if isinstance(film, str) else film[1]),
         sections.energy_section(judged, figures.get("balance")),
         sections.resolution_section(resolved),
         sections.summary_section(result, every),

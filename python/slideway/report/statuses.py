@@ -18,7 +18,7 @@ MEANINGS = {
     "step_too_small": "the error control asked for a step below the resolution of time",
     "max_steps": "spent all steps that integrator.max_steps allows; raise it, or look whether the member chatters",
     "nonfinite": "a number became infinite or no number at any step; with method rk4 use a smaller integrator.step",
-    "geometry": "the slider left its way, the rod did not reach it, or a rigid one began inside the way",
+    "geometry": "the slider left its way, the rod did not reach it, a rigid one began inside the way, or a loop of joints without clearance came to a dead centre",
     "contact_domain": "a line contact was pressed deeper than its law holds for (δ ≤ l²/R)",
     "invalid_inputs": "the values drawn for the member cannot be used; it was not integrated",
     "unstable": "reached the end time, but its energy audit says that the method left its stable range; use smaller tolerances",

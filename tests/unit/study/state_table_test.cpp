@@ -11,6 +11,7 @@
 #include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/list.hpp"
 #include "kernels/members/start.hpp"
+#include "tests/support/scene_fixture.hpp"
 
 namespace slideway::state_table_test {
 namespace {
@@ -55,6 +56,24 @@ TEST(StateTable, ReadsColumnsInAnyOrder) {
     EXPECT_EQ(first.wy, 9);
     EXPECT_EQ(first.wz, 10);
     EXPECT_EQ(table.inputs[1].wz, 11);
+}
+
+/// A crank of 50 mm, a rod of 120 mm, a slider on the line: the wrist closes the loop.
+TEST(StateTable, RefusesStatesInWhichLoopsAreOpen) {
+    Scene const scene = testing::scene_of("schema = 1\n[mechanism]\nkind = \"linkage\"\ncrank_speed = 10\n[drive]\nbody = \"crank\"\n"
+        "[body.crank]\nmass = 0.3\ninertia = 1e-4\n[body.rod]\nmass = 0.2\ninertia = 2e-4\n[body.slider]\nmass = 0.1\n"
+        "[link.shaft]\nkind = \"revolute\"\nfirst = \"ground\"\nsecond = \"crank\"\n[link.way]\nkind = \"prismatic\"\nfirst = \"ground\"\nsecond = \"slider\"\nposition = 0.17\n"
+        "[link.pin]\nkind = \"revolute\"\nfirst = \"crank\"\nfirst_x = 0.05\nsecond = \"rod\"\n[link.wrist]\nkind = \"revolute\"\nfirst = \"rod\"\nfirst_x = 0.12\nsecond = \"slider\"\n"
+        "[study]\nduration = 1\n");
+    std::string const header = "t,crank_angle,crank_angular_velocity,slider_displacement,slider_velocity,rod_angle,rod_angular_velocity\n";
+    auto const row = [&](double angle, double place, double rate) {
+        double const rod = std::asin(-0.05 * std::sin(angle) / 0.12), turns = -0.5 * std::cos(angle) / (0.12 * std::cos(rod));
+        return header + fmt::format("0,{},10,{},{},{},{}\n", angle, 0.05 * std::cos(angle) + 0.12 * std::cos(rod) + place, -0.5 * std::sin(angle) - 0.12 * std::sin(rod) * turns + rate, rod, turns);
+    };
+    EXPECT_EQ(error_of(row(0.7, 0, 0), scene), "");
+    EXPECT_EQ(error_of(row(0.7, 1e-9, 0), scene), "");  // a few digits less
+    EXPECT_NE(error_of(row(0.7, 1e-5, 0), scene).find("in this state link.wrist is open by 1e-05 m and opens at"), std::string::npos) << error_of(row(0.7, 1e-5, 0), scene);
+    EXPECT_NE(error_of(row(0.7, 0, 0.01), scene).find("opens at 0.01 m/s"), std::string::npos) << error_of(row(0.7, 0, 0.01), scene);
 }
 
 TEST(StateTable, TakesTheSceneWhereTheTableIsSilent) {
