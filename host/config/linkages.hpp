@@ -16,6 +16,7 @@
 
 namespace slideway {
 
+struct Node;
 struct Reading;
 struct Setting;
 struct Defect;
@@ -55,6 +56,7 @@ struct Linkage {
     std::vector<Row> rows;
     std::deque<std::string> texts;  // that infos and keys point to
     std::vector<SeriesInfo> series;
+    std::vector<QuantityInfo> quantities;  // work of its loads
     std::deque<Key> keys;
 
     Key const* find_key(std::string_view name) const;
@@ -73,6 +75,9 @@ MechanismInfo const& linkage_info(Mechanism mechanism);
 bool counts_for_linkages(Key const& key, bool driven);
 /// What numbers of a member's bodies and links ask of one another; it also has to go together at the start.
 std::optional<Defect> defect_of_linkage(Inputs const& in, Linkage const& linkage);
+
+/// Which bodies or joint a load, spring or stop of a linkage is on.  @return what the resolved scene says of that
+std::string read_place_on_linkage(Reading const& reading, Node const& node, Load& load);
 
 /// [body.<name>] and [link.<name>]: the scene's mechanism, Parts::linkage, and the keys of their numbers; needs the drive.
 void read_linkage(Reading& reading);

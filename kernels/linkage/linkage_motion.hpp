@@ -24,7 +24,7 @@ public:
         for (int i = 0; i < plan.coordinates; ++i) h_[i] = Real(0.0);
     }
 
-    /// Adds a torque along a coordinate that is an angle.
+    /// Adds a torque along a coordinate that is an angle, or a force along one that is a displacement.
     SLIDEWAY_FN void turn(int coordinate, Real torque) { h_[coordinate] = h_[coordinate] - torque; }
 
     /// Inwards: M and h, and the factors of M.

@@ -58,7 +58,7 @@ struct LinkageClosure {
 enum class AssemblyFault { none, open, redundant };
 
 struct LinkagePlan {
-    static constexpr int most_bodies = 8, most_coordinates = most_linkage_coordinates, most_closures = 8, most_loops = 3, most_pairs = 8;
+    static constexpr int most_bodies = 8, most_coordinates = most_linkage_coordinates, most_closures = 8, most_loops = 3, most_pairs = 8, most_loads = 8;
     static constexpr int most_states = 2 * most_coordinates;
 
     int bodies = 0, coordinates = 0, closures = 0;
