@@ -385,7 +385,8 @@ private:
         info.states = plan.states();
         info.own_series = linkage.series;
         using enum Quantity;
-        info.quantities = selections::of({peak_normal_force, mean_normal_force, mode_time, contact_onsets, energy_residual, energy_change, drive_work, friction_loss, damping_loss, load_work, spring_loss});
+        info.quantities = selections::of({peak_normal_force, mean_normal_force, mode_time, contact_onsets, energy_residual, energy_change, drive_work, friction_loss,
+                                          damping_loss, load_work, spring_loss});
         if (plan.is_driven) info.quantities |= selections::of({peak_crank_torque, rms_crank_torque});
         info.own_quantities = linkage.quantities;
         info.drive = plan.is_driven ? DriveKind::crank : DriveKind::none;
@@ -405,10 +406,12 @@ private:
                 if (kind == LoadKind::push) {
                     put(at + 1, name + "_power", "W", "power " + of, node);
                 } else {
-                    put(at, name + (turns ? "_torque" : "_force"), turns ? "N m" : "N", (turns ? "torque " : kind == LoadKind::spring ? "tension " : "force ") + of, node);
+                    put(at, name + (turns ? "_torque" : "_force"), turns ? "N m" : "N",
+                        (turns ? "torque " : kind == LoadKind::spring ? "tension " : "force ") + of, node);
                     put(at + 1, name + "_energy", "J", "potential " + of, node);
                 }
-                linkage_->quantities.push_back({keep(name + "_work"), Statistic::integral, Keeper::mechanism, "J", 1, nullptr, keep(fmt::format("work {} on the bodies", of))});
+                linkage_->quantities.push_back({keep(name + "_work"), Statistic::integral, Keeper::mechanism, "J", 1, nullptr,
+                                               keep(fmt::format("work {} on the bodies", of))});
             }
         }
     }

@@ -50,10 +50,13 @@ private:
         std::string const words = read_place();
         if (first("stiffness") == nullptr && first("damping") == nullptr && first("preload") == nullptr && !load_.turns)
             require("stiffness", "a spring without a stiffness, a damping or a preload does nothing", "add stiffness = \"2 N/mm\", or angular_stiffness");
-        if (node_.find("stiffness") != nullptr) require("rest_length", "the length at which the spring is slack but for its preload", "add rest_length = \"50 mm\"");
+        if (node_.find("stiffness") != nullptr)
+            require("rest_length", "the length at which the spring is slack but for its preload", "add rest_length = \"50 mm\"");
         if (!load_.turns) return words;
-        if (first("angular") == nullptr) require("angular_stiffness", "a spring without a stiffness, a damping or a preload does nothing", "add angular_stiffness = \"2 N m/rad\"");
-        if (node_.find("angular_stiffness") != nullptr) require("angle", "the angle at which the spring is slack but for its preload", "add angle = \"30 deg\"");
+        if (first("angular") == nullptr)
+            require("angular_stiffness", "a spring without a stiffness, a damping or a preload does nothing", "add angular_stiffness = \"2 N m/rad\"");
+        if (node_.find("angular_stiffness") != nullptr)
+            require("angle", "the angle at which the spring is slack but for its preload", "add angle = \"30 deg\"");
         return words;
     }
 
@@ -61,9 +64,11 @@ private:
         std::string words = read_place();
         std::string_view const own = load_.turns ? "angle" : "position";
         if (!load_.turns && load_.coordinate == Load::none && load_.closure == Load::none)
-            refuse_missing(node_, node_.name + ".link", "a stop is of a joint's displacement, or of an angle", "add link = \"…\", a prismatic joint or block, or give angle for position");
+            refuse_missing(node_, node_.name + ".link", "a stop is of a joint's displacement, or of an angle",
+                           "add link = \"…\", a prismatic joint or block, or give angle for position");
         require(own, "where the stop is touched", load_.turns ? "add angle = \"30 deg\"" : "add position = 0.15");
-        require(load_.turns ? "angular_stiffness" : "stiffness", "how far the stop gives way", load_.turns ? "add angular_stiffness = \"1e4 N m/rad\"" : "add stiffness = \"1e7 N/m\"");
+        require(load_.turns ? "angular_stiffness" : "stiffness", "how far the stop gives way",
+                load_.turns ? "add angular_stiffness = \"1e4 N m/rad\"" : "add stiffness = \"1e7 N/m\"");
         auto const sides = std::span(stop_sides).subspan(load_.turns ? 2 : 0, 2);
         require("blocks", "which way it cannot go on", fmt::format("add blocks = \"{}\", or \"{}\"", sides[0], sides[1]));
         load_.side = read_choice(*node_.find("blocks"), "blocks", sides) == 0 ? 1 : -1;
@@ -75,13 +80,15 @@ private:
         Node const* const link = node_.find("link");
         if (link == nullptr) return read_bodies("which body or joint it acts on");
         for (std::string_view const idle : {"on", "against", "point_x", "point_y", "anchor_x", "anchor_y"}) {
-            if (Node const* const node = node_.find(idle)) refuse(*node, {fmt::format("{} says which bodies it is between, and where", link->name), "remove one of the two"});
+            if (Node const* const node = node_.find(idle))
+                refuse(*node, {fmt::format("{} says which bodies it is between, and where", link->name), "remove one of the two"});
         }
         Node const& joint = joint_of(*link);
         std::string const& kind = joint.find("kind")->text;
         bool const slides = kind == link_kinds[static_cast<int>(LinkKind::prismatic)], is_block = kind == link_kinds[static_cast<int>(LinkKind::block)];
         if (load_.turns && (slides || is_block)) refuse(*link, {"it leads along a line", "use on and against, or what is no angle"});
-        if (!load_.turns && !slides && !is_block) refuse(*link, {"a pin has no displacement", "use angle and angular_stiffness, or a prismatic joint or block"});
+        if (!load_.turns && !slides && !is_block)
+            refuse(*link, {"a pin has no displacement", "use angle and angular_stiffness, or a prismatic joint or block"});
         if (is_block) {
             load_.closure = static_cast<int>(std::ranges::find(linkage_.closures, joint.name) - linkage_.closures.begin());
         } else if (slides) {

@@ -200,7 +200,8 @@ private:
             }
             static constexpr std::string_view of_linkages[] = {"against", "link"}, of_sliders[] = {"along"};
             bool const joins = std::ranges::find(of_linkages, child.key) != std::end(of_linkages) || (child.key == "on" && kind_ != LoadKind::push);
-            if (on_linkage_ ? std::ranges::find(of_sliders, child.key) != std::end(of_sliders) : joins) refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
+            if (on_linkage_ ? std::ranges::find(of_sliders, child.key) != std::end(of_sliders) : joins)
+                refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
             if (std::ranges::find(known, child.key) != known.end()) return;
             refuse_that(child, fmt::format("is no key of a {}", noun()), {"mistyped, it would have no effect", choice_advice(child.key, known)});
         }
@@ -423,7 +424,8 @@ void read_loads(Reading& reading) {
     if (given.empty()) return;
     auto const most = static_cast<std::size_t>(LinkagePlan::most_loads);
     if (is_linkage(scene.parts.mechanism) && given.size() > most)
-        refuse_that(*reading.given(given[most].row.name), "is one of too many", {fmt::format("a linkage has {} loads, springs and stops at most together", most), "use fewer"});
+        refuse_that(*reading.given(given[most].row.name), "is one of too many",
+                    {fmt::format("a linkage has {} loads, springs and stops at most together", most), "use fewer"});
     auto loads = std::make_shared<SceneLoads>();
     for (GivenLoad& load : given) {
         for (LoadNumber const* const number : load.numbers) {
@@ -431,7 +433,8 @@ void read_loads(Reading& reading) {
             if (loads->keys().size() == most_load_numbers) {
                 Node const* const node = reading.given(name);
                 refuse(node != nullptr ? *node : *reading.given(load.row.name),
-                       {fmt::format("all loads, springs, stops, profiles and ends of a scene, the ground's motion and the film have {} numbers at most together", most_load_numbers), "use fewer"});
+                       {fmt::format("all loads, springs, stops, profiles and ends of a scene, the ground's motion and the film have {} numbers at most together",
+                                   most_load_numbers), "use fewer"});
             }
             int const place = number->place(load.load) = loads->add_key(std::move(name), *number);
             scene.inputs.*load_inputs[place] = number->preset;

@@ -29,7 +29,8 @@ SLIDEWAY_HD inline void put_linkage_loads(LoadList const& list, Inputs const& in
         if (load.turns_with_slider) own.force = detail::turned(own.force, turn(load.body[0]));
         own.torque = number(load.crank_torque);
         own.scale = number(load.scale, 1);
-        own.rest = load.turns ? number(load.angle) - (turn(load.body[0]) - turn(load.body[1])) : number(load.kind == LoadKind::stop ? load.anchor[0] : load.rest_length);
+        own.rest = number(load.turns ? load.angle : load.kind == LoadKind::stop ? load.anchor[0] : load.rest_length);
+        if (load.turns) own.rest -= turn(load.body[0]) - turn(load.body[1]);
         own.stiffness = number(load.turns ? load.angular_stiffness : load.stiffness);
         own.damping = number(load.turns ? load.angular_damping : load.damping);
         own.preload = number(load.turns ? load.angular_preload : load.preload);

@@ -38,11 +38,11 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 21'781u);
-    EXPECT_LE(Layer("kernels/linkage").lines(), 1'483u);
+    EXPECT_LE(Layer("kernels").lines(), 21'782u);
+    EXPECT_LE(Layer("kernels/linkage").lines(), 1'484u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'267u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'992u);
-    EXPECT_LE(Layer("host").lines(), 32'861u);
+    EXPECT_LE(Layer("host").lines(), 32'875u);
     EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 
