@@ -136,9 +136,11 @@ struct Parts {
     row(vx, "initial.vx", 0, "m/s", any, along, "velocity along the way at the start")
 // clang-format on
 
-// Numbers of their own that a law and a mechanism may have, under the keys that their info names: law_a … law_p, mechanism_a … mechanism_p.  And
-// those of the scene's loads: load_a … load_p.
+// Numbers of their own that a law and a mechanism may have, under the keys that their info names: law_a … law_p, mechanism_a … mechanism_p.
 #define SLIDEWAY_OWN_NUMBERS(row) row(a) row(b) row(c) row(d) row(e) row(f) row(g) row(h) row(i) row(j) row(k) row(l) row(m) row(n) row(o) row(p)
+
+// Those of the scene's loads: load_a … load_z.
+#define SLIDEWAY_LOAD_NUMBERS(row) SLIDEWAY_OWN_NUMBERS(row) row(q) row(r) row(s) row(t) row(u) row(v) row(w) row(x) row(y) row(z)
 
 // And those of the bodies and joints of a linkage: linkage_0 … linkage_95.
 #define SLIDEWAY_TEN_NUMBERS(row, ten) \
@@ -155,8 +157,11 @@ struct Inputs {
     double profile_speed = follows;  // no key: what the profile of a drive begins with, where there is one [rad/s]
     // 0 where there are fewer.
     // Of a linkage mechanism_a … are the state that it starts in, where mechanism_a is a number.
-#define SLIDEWAY_MEMBER(letter) double law_##letter = 0, mechanism_##letter = 0, load_##letter = 0;
+#define SLIDEWAY_MEMBER(letter) double law_##letter = 0, mechanism_##letter = 0;
     SLIDEWAY_OWN_NUMBERS(SLIDEWAY_MEMBER)
+#undef SLIDEWAY_MEMBER
+#define SLIDEWAY_MEMBER(letter) double load_##letter = 0;
+    SLIDEWAY_LOAD_NUMBERS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
 #define SLIDEWAY_MEMBER(number) double linkage_##number = 0;
     SLIDEWAY_LINKAGE_NUMBERS(SLIDEWAY_MEMBER)
@@ -217,7 +222,7 @@ static constexpr double Inputs::*mechanism_inputs[] = {
 };
 static constexpr double Inputs::*load_inputs[] = {
 #define SLIDEWAY_PLACE(letter) &Inputs::load_##letter,
-    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
+    SLIDEWAY_LOAD_NUMBERS(SLIDEWAY_PLACE)
 #undef SLIDEWAY_PLACE
 };
 static_assert(sizeof(load_inputs) / sizeof(load_inputs[0]) == most_load_numbers);

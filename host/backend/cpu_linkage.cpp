@@ -15,11 +15,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 #ifdef SLIDEWAY_HEADER
 using Model = LinkageModel<PlanConstant<SLIDEWAY_LINKAGE>>;
 static constexpr LinkagePlan const* known_plan = &SLIDEWAY_LINKAGE::plan;
-static constexpr bool turns_freely = SLIDEWAY_LINKAGE::turns_freely;
 #else
 using Model = LinkageModel<PlanTable>;
 static constexpr LinkagePlan const* known_plan = nullptr;
-static constexpr bool turns_freely = false;
 #define SLIDEWAY_TABLE linkage_kernels
 #endif
 
@@ -33,7 +31,6 @@ extern constinit MechanismKernels const SLIDEWAY_TABLE = {
     .run_shadowed = &run_shadowed_linkages,
     .probe = [](ProbeTable const& states, Parts const& parts, LawKernels const*) { probe<Model, IsaReal>(states, Model(parts)); },
     .linkage = known_plan,
-    .turns_freely = turns_freely,
 };
 #endif
 

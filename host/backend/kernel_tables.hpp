@@ -22,8 +22,7 @@ struct MechanismKernels {
     /// Members with shadows; none of a mechanism that has no exponents.  Of rigid contacts they have a table of their own, which has nothing else.
     void (*run_shadowed)(Block&, Parts const&, LawKernels const*) = nullptr;
     void (*probe)(ProbeTable const&, Parts const&, LawKernels const*) = nullptr;
-    LinkagePlan const* linkage = nullptr;  // that the compiler knew, and whether its crank turns freely
-    bool turns_freely = false;
+    LinkagePlan const* linkage = nullptr;  // that the compiler knew
 };
 
 /// The kernels of a scene's parts.

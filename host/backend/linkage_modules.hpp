@@ -8,9 +8,9 @@
 
 namespace slideway {
 
-/// What a module of these parts' linkage is called: by the plan, and whether its crank turns freely.
-std::string linkage_module_name(LinkagePlan const& plan, bool turns_freely);
-/// The header that it is compiled from (host/backend/module_compiler.hpp).
+/// What the module of a plan is called.
+std::string linkage_module_name(LinkagePlan const& plan);
+/// The header that the module of these parts' linkage is compiled from (module_compiler.hpp).
 std::string linkage_header(Parts const& parts);
 /// Its kernels of an instruction set, where a folder of modules has them; else nullptr.
 MechanismKernels const* compiled_linkage(Parts const& parts, Isa isa);

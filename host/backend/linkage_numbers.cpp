@@ -59,4 +59,17 @@ double stiffest_rate(LinkagePlan const& plan, Inputs const& in) {
     return rate;
 }
 
+double rate_on_stop(LinkagePlan const& plan, Load const& stop, Inputs const& in) {
+    LinkageParameters<double> const p = linkage_parameters(plan, in);
+    double least = p.mass * p.reach * p.reach;
+    if (!stop.turns) least = p.mass;
+    for (int i = 0; i < plan.bodies; ++i) {
+        auto const& body = p.body[i];
+        double const about_joint = body.inertia + body.mass * (body.center.x * body.center.x + body.center.y * body.center.y);
+        if (!stop.turns) least = std::min(least, body.mass);
+        else if (plan.body[i].joint != TreeJoint::prismatic && about_joint > 0) least = std::min(least, about_joint);
+    }
+    return std::sqrt(in.*load_inputs[stop.turns ? stop.angular_stiffness : stop.stiffness] / least);
+}
+
 }  // namespace slideway

@@ -32,4 +32,7 @@ LinkageSize size_of(LinkagePlan const& plan, Inputs const& in);
 /// Rate [rad/s] at which the stiffest joint with clearance rings in an impact at the speed of the drive.
 double stiffest_rate(LinkagePlan const& plan, Inputs const& in);
 
+/// Rate [rad/s] at which the lightest body bounces on a stop.
+double rate_on_stop(LinkagePlan const& plan, Load const& stop, Inputs const& in);
+
 }  // namespace slideway

@@ -74,7 +74,7 @@ std::string name_of(ModuleKind kind, KernelModule const& module) {
     if (kind == ModuleKind::law) return module.law != nullptr ? std::string(module.law->info->name) : "";
     MechanismKernels const* const kernels = module.mechanism;
     if (kernels == nullptr) return "";
-    if (kind == ModuleKind::linkage) return kernels->linkage != nullptr ? linkage_module_name(*kernels->linkage, kernels->turns_freely) : "";
+    if (kind == ModuleKind::linkage) return kernels->linkage != nullptr ? linkage_module_name(*kernels->linkage) : "";
     return kernels->info != nullptr && kernels->info->name != nullptr ? kernels->info->name : "";
 }
 

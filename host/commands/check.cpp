@@ -27,7 +27,7 @@ std::string loads_text(Scene const& scene) {
     SceneLoads const& loads = *scene.loads;
     std::string text, last;
     for (std::size_t i = 0; i < loads.rows().size(); ++i) {
-        auto const& [name, table] = loads.rows()[i];
+        auto const& [name, table, words] = loads.rows()[i];
         if (name == last) continue;
         text += fmt::format("{}{}", i == 0 ? "" : ", ", name);
         last = name;

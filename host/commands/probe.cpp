@@ -127,8 +127,17 @@ std::string state_text(Probed const& probed, std::size_t row) {
     return fmt::format("{}, member {}{} ({})", probed.scene.path, probed.stored->member, at, probed.stored->of);
 }
 
+std::string powers_text(StateTable const& table, ProbeResult const& result) {
+    std::string powers = fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank, result.power_friction, result.power_damping);
+    for (LoadPower const& power : load_powers) {
+        double const value = result.*power.value;
+        if (table.has_loads && (value != 0 || power.value == &ProbeResult::power_load)) powers += fmt::format(", {:.10g} W {}", value, power.label);
+    }
+    return powers;
+}
+
 /// Of joints with clearance, and in sum.
-void print_linkage(Linkage const& linkage, ProbeResult const& result) {
+void print_linkage(Linkage const& linkage, StateTable const& table, ProbeResult const& result) {
     TextRows rows{{"joint", "penetration [m]", "normal force [N]"}};
     for (std::size_t k = 0; k < linkage.closures.size(); ++k) {
         auto const& closure = linkage.plan.closure[k];
@@ -141,7 +150,7 @@ void print_linkage(Linkage const& linkage, ProbeResult const& result) {
     if (rows.size() > 1) print_table([&](int) { return rows; }, 6, 1, 8);
     print_out("\n");
     print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
-    print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank, result.power_friction, result.power_damping));
+    print_field("power", powers_text(table, result));
     if (!linkage.driven.empty()) print_field("drive torque", fmt::format("{:.10g} N m", result.crank_torque));
 }
 
@@ -158,7 +167,7 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
     }
     print_out("\n");
     print_table([&](int) { return rows; }, 3, 2, 8);
-    if (Linkage const* const linkage = linkage_of(table.mechanism)) return print_linkage(*linkage, result);
+    if (Linkage const* const linkage = linkage_of(table.mechanism)) return print_linkage(*linkage, table, result);
     print_contacts(has, result);
     if (table.parts[row].rigid) {
         print_field("energy", fmt::format("{:.10g} J", result.energy));
@@ -167,12 +176,7 @@ void print_listing(Probed const& probed, std::size_t row, ProbeResult const& res
     if (has_series(has, Series::face_force_y_plus)) print_forces(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
-    std::string powers = fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank, result.power_friction, result.power_damping);
-    for (LoadPower const& power : load_powers) {
-        double const value = result.*power.value;
-        if (table.has_loads && (value != 0 || power.value == &ProbeResult::power_load)) powers += fmt::format(", {:.10g} W {}", value, power.label);
-    }
-    print_field("power", powers);
+    print_field("power", powers_text(table, result));
     if (has_series(has, Series::crank_torque)) {
         std::string_view const weight = has.spatial ? "by the rod: the series of that name has the crank's own weight and inertia too" : "the crank's own weight included";
         print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));

@@ -361,7 +361,9 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
                                       fmt::arg("angle", in.start_angle), fmt::arg("stick", in.friction_stick_speed));
         return Defect{&key, find_key(rule.other), key.get(in), {std::move(why), std::string(rule.instead)}};
     }
-    if (Linkage const* const linkage = linkage_of(parts.mechanism)) return defect_of_linkage(in, *linkage);
+    if (Linkage const* const linkage = linkage_of(parts.mechanism)) {
+        if (auto found = defect_of_linkage(in, *linkage)) return found;
+    }
     return defect_of_loads(in, parts.loads);
 }
 

@@ -33,9 +33,9 @@ constexpr PartNumber rows_of_parts[] = {
     {body_table, "angle", "rad", "angle against the ground near which it starts; joints decide"},
     {body_table, "speed", "rad/s", "angular velocity near which it starts"},
 
-    {link_table, "first_x", "m", "place of the joint on its first body, along that one's X", any, of_all},
+    {link_table, "first_x", "m", "the joint on its first body, along that one's X", any, of_all},
     {link_table, "first_y", "m", "the same along Y", any, of_all},
-    {link_table, "second_x", "m", "place of the joint on its second body, along that one's X", any, of_all},
+    {link_table, "second_x", "m", "the joint on its second body, along that one's X", any, of_all},
     {link_table, "second_y", "m", "the same along Y", any, of_all},
     {link_table, "direction", "rad", "angle of a prismatic joint's line against the first body's X, or of walls against the second body's", any, of_slides | of_blocks},
     {link_table, "turn", "rad", "angle of the second body of a prismatic joint against the first", any, of_slides},
@@ -118,6 +118,7 @@ Key const* Linkage::find_key(std::string_view name) const {
 
 std::string Linkage::identity() const {
     std::string text = driven;
+    for (SeriesInfo const& one : series) text += fmt::format("\n{} {}", one.name, one.unit);
     for (Row const& row : rows) {
         text += fmt::format("\n{}\n{}", row.name, row.words);
         for (std::size_t const i : row.keys) text += fmt::format("{}\n", keys[i].name);

@@ -18,6 +18,7 @@
 
 namespace slideway {
 
+struct Node;
 struct Reading;
 struct Scene;
 struct Setting;
@@ -58,6 +59,7 @@ struct Linkage {
     std::vector<Row> rows;
     std::deque<std::string> texts;  // that infos and keys point to
     std::vector<SeriesInfo> series;
+    std::vector<QuantityInfo> quantities;  // work of its loads
     std::deque<Key> keys;
 
     Key const* find_key(std::string_view name) const;
@@ -88,6 +90,8 @@ struct OpenLinkage : SceneError {
 };
 /// @throws OpenLinkage with this line, if so
 void refuse_open(Scene const& scene, std::string const& line);
+/// Which bodies or joint a load, spring or stop of a linkage is on.  @return what the resolved scene says of that
+std::string read_place_on_linkage(Reading const& reading, Node const& node, Load& load);
 
 /// [body.<name>] and [link.<name>]: the scene's mechanism, Parts::linkage, and the keys of their numbers; needs the drive.
 void read_linkage(Reading& reading);

@@ -25,15 +25,17 @@ inline constexpr std::string_view load_tables[] = {"load", "spring", "stop", "gr
 constexpr std::string_view table_of(LoadKind kind) { return load_tables[static_cast<int>(kind)]; }
 constexpr bool has_named_loads(std::string_view table) { return table == "load" || table == "spring" || table == "stop" || table == "way_profile"; }
 
+/// What a load acts on, a bit each.
+inline constexpr unsigned on_spatial_slider = 1, on_planar_slider = 2, on_crank = 4, on_linkage = 8, on_sliders = on_spatial_slider | on_planar_slider;
+
 /// A number that a load may have: load.<name>.force_x …
 struct LoadNumber {
     LoadKind kind;
     std::string_view name, unit, meaning;
     int& (*place)(Load&);
+    unsigned of = on_sliders | on_linkage;  // of loads on which
     Rule rule = Rule::any;
     double preset = 0;
-    bool planar = true;                       // it means something in a plane
-    bool of_crank = false, of_slider = true;  // of a push on which of them
 
     /// Of a scene.  @param dotted its name there, which is kept elsewhere  @param at its place among Inputs::load_a …
     Key key(std::string_view dotted, int at) const;
@@ -44,11 +46,11 @@ LoadNumber const* find_load_number(LoadKind kind, std::string_view name);
 /// Rows of the table of keys (settings.hpp) for all of that and for what else these tables may say: load.<name>.on …
 std::span<Setting const> load_settings();
 
-inline constexpr std::string_view load_bodies[] = {"slider", "crank"}, load_frames[] = {"ground", "slider"};
+inline constexpr std::string_view load_bodies[] = {"slider", "crank"}, load_frames[] = {"ground", "slider", "body"};
 /// Which faces of a way have a profile, and bits of them as in Load::faces.
 inline constexpr std::string_view profiled_faces[] = {"all", "y", "z", "y_plus", "y_minus", "z_plus", "z_minus"};
 inline constexpr int profiled_face_bits[] = {0b1111, 0b0011, 0b1100, 0b0001, 0b0010, 0b0100, 0b1000};
-inline constexpr std::string_view spring_directions[] = {"line", "x"}, stop_sides[] = {"+x", "-x"};
+inline constexpr std::string_view spring_directions[] = {"line", "x"}, stop_sides[] = {"+x", "-x", "+angle", "-angle"};
 inline constexpr std::string_view load_arguments[] = {"crank_angle", "time", "x", "vx", "crank_speed"};  // in the order of LoadArgument, behind `nothing`
 
 /// What a load has of its table (find_table of load.<name>.table).
@@ -78,6 +80,7 @@ public:
     struct Row {
         std::string name;  // of its table in the scene: load.plunger, ground_motion; the ground has a row for each axis
         LoadTable table;
+        std::string words = {};  // what the resolved scene says of a load on a linkage beside numbers and table
     };
 
     SceneLoads() = default;

@@ -38,6 +38,12 @@ Outputs outputs_of(MechanismInfo const& mechanism) {
     if (mechanism.own_series.empty()) all.series.assign(std::begin(series_table), std::end(series_table));
     else all.series.assign(mechanism.own_series.begin(), mechanism.own_series.end());
     all.has_quantities = mechanism.quantities;
+    for (QuantityInfo const& one : mechanism.own_quantities) {
+        all.has_quantities |= Selection{1} << all.quantities.size();
+        add(one);
+    }
+    // Kernels have room for as many loads as there may be.
+    if (!mechanism.own_series.empty()) all.columns = quantity_columns + LinkagePlan::most_loads;
     all.has_series = mechanism.series;
     auto const text = [&](std::string words) { return all.texts.emplace_back(std::move(words)).c_str(); };
     for (Signal const& signal : mechanism.signals) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/backend/linkage_numbers.hpp"
 #include "host/config/loads.hpp"
 #include "host/config/reader.hpp"
 #include "kernels/linkage/linkage_plan.hpp"
@@ -73,8 +74,11 @@ double step_within_loads(Scene const& scene, double period) {
     for (std::size_t i = 0; scene.loads != nullptr && i < scene.loads->rows().size(); ++i) {
         Load const& load = scene.loads->load(i);
         limit(scene.loads->rows()[i].table, load.over);
+        if (load.kind != LoadKind::stop) continue;
+        LinkagePlan const* const linkage = scene.parts.linkage;
+        double const rate = linkage != nullptr ? rate_on_stop(*linkage, load, in) : std::sqrt(in.*load_inputs[load.stiffness] / in.slider_mass);
         // A tenth of the time that the slider alone is on it: a step across its touch has no order.
-        if (load.kind == LoadKind::stop) step = std::min(step, 0.3 * std::sqrt(in.slider_mass / (in.*load_inputs[load.stiffness])));
+        step = std::min(step, 0.3 / rate);
     }
     if (scene.drive != nullptr) limit(scene.drive->table, scene.parts.drive.by == DriveBy::profile ? LoadArgument::time : scene.parts.drive.over);
     return step;

@@ -10,6 +10,7 @@
 #include "host/backend/own_modules.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/linkages.hpp"
+#include "host/config/loads.hpp"
 #include "host/config/outputs.hpp"
 #include "host/config/reader.hpp"
 
@@ -17,6 +18,7 @@ namespace slideway {
 namespace {
 
 constexpr int ground = LinkageBody::ground, none = LinkageBody::none;
+constexpr LoadKind kinds_of_loads[] = {LoadKind::push, LoadKind::spring, LoadKind::stop};
 
 struct GivenBody {
     Node const* node;
@@ -310,7 +312,7 @@ private:
         linkage_->closures.push_back(link.node->name);
     }
 
-    /// Bodies whose mass centre and joints lie in one point.
+    /// Bodies whose mass centre and joints lie in one point.  Loads may be anywhere.
     void find_points() {
         LinkagePlan& plan = linkage_->plan;
         for (int i = 0; i < plan.bodies; ++i) {
@@ -338,6 +340,10 @@ private:
                 if (body != ground && (is_walls || closure.arm[side] != Arm::none)) plan.body[body].is_point = 0;
             }
             closure.is_level = closure.body[1] == ground && closure.direction == none;
+        }
+        for (LoadKind const kind : kinds_of_loads) {
+            Node const* const table = reading_.given(table_of(kind));
+            for (int i = 0; table != nullptr && !table->children.empty() && i < plan.bodies; ++i) plan.body[i].is_point = 0;
         }
     }
 
@@ -371,7 +377,7 @@ private:
         Linkage& linkage = *linkage_;
         LinkagePlan const& plan = linkage.plan;
         // Columns as kernels/linkage/linkage_report.hpp has them.
-        linkage.series.assign(LinkagePlan::most_states + 2 + 3 * static_cast<std::size_t>(plan.closures), {"", "1", ""});
+        linkage.series.assign(LinkagePlan::most_states + 2 + 3 * LinkagePlan::most_closures + 2 * LinkagePlan::most_loads, {"", "1", ""});
         MechanismInfo& info = linkage.info;
         std::set<std::string_view> names;
         auto const put = [&](std::size_t at, std::string const& name, char const* unit, std::string const& meaning, Node const& node) {
@@ -416,19 +422,42 @@ private:
                     fmt::format("journal of {} in its bearing, along the ground's {}", link.node->key, axis == 0 ? "X" : "Y"), *link.node);
             put(first + 2, fmt::format("{}_force", link.node->key), "N", fmt::format("normal force in {}", link.node->key), *link.node);
         }
+        name_loads(LinkagePlan::most_states + 2 + 3 * LinkagePlan::most_closures, put);
         MechanismInfo const& any = info_of_any();
         info.name = any.name;
         info.meaning = any.meaning;
         info.states = plan.states();
         info.own_series = linkage.series;
         using enum Quantity;
-        info.quantities = selections::of({peak_normal_force, mean_normal_force, mode_time, contact_onsets, energy_residual, energy_change, drive_work, friction_loss, damping_loss});
+        info.quantities = selections::of({peak_normal_force, mean_normal_force, mode_time, contact_onsets, energy_residual, energy_change, drive_work, friction_loss,
+                                          damping_loss, load_work, spring_loss});
         if (plan.is_driven) info.quantities |= selections::of({peak_crank_torque, rms_crank_torque});
+        info.own_quantities = linkage.quantities;
         info.drive = plan.is_driven ? DriveKind::crank : DriveKind::none;
         info.spatial = false;
         info.prescribed = plan.is_driven ? 0b11u : 0u;
         info.may_turn_freely = plan.is_driven;
         info.has_exponents = plan.loops() == 0;
+    }
+    /// Columns and quantities of loads, springs and stops, in the order in which read_loads has them.
+    template <class Put> void name_loads(std::size_t at, Put const& put) {
+        for (LoadKind const kind : kinds_of_loads) {
+            Node const* const table = reading_.given(table_of(kind));
+            for (std::size_t i = 0; table != nullptr && i < table->children.size() && linkage_->quantities.size() < LinkagePlan::most_loads; ++i, at += 2) {
+                Node const& node = table->children[i];
+                std::string const &name = node.key, of = fmt::format("of {}", node.name);
+                bool const turns = std::ranges::any_of(node.children, [](Node const& child) { return child.key.starts_with("ang"); });
+                if (kind == LoadKind::push) {
+                    put(at + 1, name + "_power", "W", "power " + of, node);
+                } else {
+                    put(at, name + (turns ? "_torque" : "_force"), turns ? "N m" : "N",
+                        (turns ? "torque " : kind == LoadKind::spring ? "tension " : "force ") + of, node);
+                    put(at + 1, name + "_energy", "J", "potential " + of, node);
+                }
+                linkage_->quantities.push_back({keep(name + "_work"), Statistic::integral, Keeper::mechanism, "J", 1, nullptr,
+                                               keep(fmt::format("work {} on the bodies", of))});
+            }
+        }
     }
     static MechanismInfo const& info_of_any() { return linkage_info(any_linkage); }
 
@@ -449,7 +478,7 @@ void read_linkage(Reading& reading) {
     }
     if (Node const* const body = reading.given("drive.body"); body != nullptr && !asked) refuse_meaningless(body->where, "drive.body", reading.scene.parts.mechanism);
     if (!asked) return;
-    static constexpr std::string_view other[] = {"load", "spring", "stop", "ground_motion", "film", "way_profile", "way_ends"};
+    static constexpr std::string_view other[] = {"ground_motion", "film", "way_profile", "way_ends"};
     for (std::string_view const table : other) {
         if (Node const* const node = reading.given(table)) throw SceneError(fmt::format("{}: [{}] does not act on linkages yet; remove it", node->where, table));
     }

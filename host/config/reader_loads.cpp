@@ -148,8 +148,9 @@ public:
             refuse_that(node, fmt::format("is no name of a {}", noun()), {"names have at most 60 small letters, digits and '_', a letter first", "rename it"});
         given_.row.name = node.name;
         given_.load.kind = kind;
-        on_crank_ = kind == LoadKind::push && choice("on", load_bodies) == 1;
+        on_crank_ = kind == LoadKind::push && !on_linkage_ && choice("on", load_bodies) == 1;
         for (Node const& child : node.children) check(child);
+        if (on_linkage_) given_.row.words = read_place_on_linkage(reading, node, given_.load);
     }
 
     /// What there is of it; of the ground's motion one for each axis.
@@ -175,6 +176,8 @@ private:
             default: return std::string(table_of(kind_));
         }
     }
+    /// Of on_spatial_slider and its like.
+    unsigned target() const { return on_linkage_ ? on_linkage : on_crank_ ? on_crank : is_planar() ? on_planar_slider : on_spatial_slider; }
     bool is_planar() const { return !info(scene_.parts.mechanism).spatial; }
 
     std::size_t choice(std::string_view name, std::span<std::string_view const> of, std::size_t preset = 0) const {
@@ -195,17 +198,24 @@ private:
             for (Setting const& one : load_settings()) {
                 if (one.table() == table_of(kind_)) known.push_back(one.name.substr(one.name.rfind('.') + 1));
             }
+            static constexpr std::string_view of_linkages[] = {"against", "link"}, of_sliders[] = {"along"};
+            bool const joins = std::ranges::find(of_linkages, child.key) != std::end(of_linkages) || (child.key == "on" && kind_ != LoadKind::push);
+            if (on_linkage_ ? std::ranges::find(of_sliders, child.key) != std::end(of_sliders) : joins)
+                refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
             if (std::ranges::find(known, child.key) != known.end()) return;
             refuse_that(child, fmt::format("is no key of a {}", noun()), {"mistyped, it would have no effect", choice_advice(child.key, known)});
         }
-        if (on_crank_ ? !number->of_crank : !number->of_slider)
-            refuse(child, {fmt::format("it is of loads on the {}", on_crank_ ? "slider" : "crank"), on_crank_ ? "use torque" : "use torque_z, or on = \"crank\""});
-        if (!number->planar && is_planar()) refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
+        if ((number->of & target()) == 0) {
+            if (on_crank_) refuse(child, {"it is of loads on the slider", "use torque"});
+            if (number->of == (on_crank | on_linkage)) refuse(child, {"it is of loads on the crank", "use torque_z, or on = \"crank\""});
+            if (on_linkage_ && number->name == "torque_z") refuse(child, {"it is of loads on a slider", "use torque"});
+            refuse_meaningless(child.where, child.name, scene_.parts.mechanism);
+        }
         given_.numbers.push_back(number);
     }
 
     void read_push() {
-        given_.load.turns_with_slider = choice("frame", load_frames) == 1;
+        if (!on_linkage_) given_.load.turns_with_slider = choice("frame", std::span(load_frames).first(2)) == 1;
         bool const turns = info(scene_.parts.mechanism).drive == DriveKind::crank;
         if (on_crank_ && !turns) refuse(*node_.find("on"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use on = \"slider\""});
         if (on_crank_ && node_.find("frame") != nullptr) refuse(*node_.find("frame"), {"the torque on a crank is about its axis", "remove it"});
@@ -216,6 +226,7 @@ private:
     }
 
     void read_spring() {
+        if (on_linkage_) return;
         bool const along = given_.load.along = choice("along", spring_directions) == 1;
         if (!gives("anchor")) require("anchor_x", "where the spring is held on the ground", "add anchor_x = 0.1, or another component of the place");
         if (!gives("stiffness") && !gives("damping") && !gives("preload"))
@@ -228,10 +239,11 @@ private:
     }
 
     void read_stop() {
+        if (on_linkage_) return;
         require("position", "where along x the slider touches the stop", "add position = 0.15");
         require("blocks", "which way the slider cannot go on", "add blocks = \"+x\", or \"-x\"");
         require("stiffness", "how far the stop gives way", "add stiffness = \"1e7 N/m\"");
-        given_.load.side = choice("blocks", stop_sides) == 0 ? 1 : -1;
+        given_.load.side = choice("blocks", std::span(stop_sides).first(2)) == 0 ? 1 : -1;
     }
 
     void read_profile() {
@@ -306,9 +318,11 @@ private:
         }
         std::size_t const over = choice("over", load_arguments);
         given_.load.over = static_cast<LoadArgument>(over + 1);
+        bool const of_slider = given_.load.over == LoadArgument::x || given_.load.over == LoadArgument::vx;
+        if (on_linkage_ && of_slider) refuse(*node_.find("over"), {"it is of a slider", "use time, crank_angle or crank_speed"});
         bool const by_angle = given_.load.over == LoadArgument::crank_angle, by_crank = by_angle || given_.load.over == LoadArgument::crank_speed;
         if (by_crank && info(scene_.parts.mechanism).drive != DriveKind::crank)
-            refuse(*node_.find("over"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), "use time, x or vx"});
+            refuse(*node_.find("over"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), on_linkage_ ? "use time" : "use time, x or vx"});
         Node const* const repeats = node_.find("repeats");
         bool const ever = repeats == nullptr ? by_angle : read_boolean(*repeats);
         given_.row.table.interpolation = static_cast<Interpolation>(choice("interpolation", interpolation_names));
@@ -340,7 +354,7 @@ private:
     LoadTable const* former_table(Node const& file, TableKind const& kind) const {
         Scene const* const former = reading_.former;
         for (std::size_t i = 0; former != nullptr && former->loads != nullptr && i < former->loads->rows().size(); ++i) {
-            auto const& [name, table] = former->loads->rows()[i];
+            auto const& [name, table, words] = former->loads->rows()[i];
             TableFile const* const of = find_table(*former, name + ".table");
             if (of == nullptr || of->key != file.name || of->given != read_text_value(file) || table.column != given_.row.table.column) continue;
             Load const& load = former->loads->load(i);
@@ -357,6 +371,7 @@ private:
     Reading& reading_;
     Scene const& scene_;
     GivenLoad given_;
+    bool const on_linkage_ = is_linkage(scene_.parts.mechanism);
     bool on_crank_ = false;
 };
 
@@ -414,6 +429,10 @@ void read_loads(Reading& reading) {
     Scene& scene = reading.scene;
     std::vector<GivenLoad> given = given_loads(reading);
     if (given.empty()) return;
+    auto const most = static_cast<std::size_t>(LinkagePlan::most_loads);
+    if (is_linkage(scene.parts.mechanism) && given.size() > most)
+        refuse_that(*reading.given(given[most].row.name), "is one of too many",
+                    {fmt::format("a linkage has {} loads, springs and stops at most together", most), "use fewer"});
     auto loads = std::make_shared<SceneLoads>();
     for (GivenLoad& load : given) {
         for (LoadNumber const* const number : load.numbers) {
@@ -421,7 +440,8 @@ void read_loads(Reading& reading) {
             if (loads->keys().size() == most_load_numbers) {
                 Node const* const node = reading.given(name);
                 refuse(node != nullptr ? *node : *reading.given(load.row.name),
-                       {"all loads, springs, stops, profiles and ends of a scene, the ground's motion and the film have sixteen numbers at most together", "use fewer"});
+                       {fmt::format("all loads, springs, stops, profiles and ends of a scene, the ground's motion and the film have {} numbers at most together",
+                                   most_load_numbers), "use fewer"});
             }
             int const place = number->place(load.load) = loads->add_key(std::move(name), *number);
             scene.inputs.*load_inputs[place] = number->preset;

@@ -220,9 +220,9 @@ std::string loads_text(Scene const& scene) {
     if (scene.loads == nullptr) return text;
     auto const rows = scene.loads->rows();
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        auto const& [name, table] = rows[i];
+        auto const& [name, table, words] = rows[i];
         Load load = scene.loads->load(i);
-        if (i == 0 || rows[i - 1].name != name) text += fmt::format("\n[{}]\n", name) + load_choices(load);
+        if (i == 0 || rows[i - 1].name != name) text += fmt::format("\n[{}]\n", name) + (words.empty() ? load_choices(load) : words);
         for (LoadNumber const& number : load_numbers()) {
             int const place = number.kind == load.kind ? number.place(load) : Load::none;
             if (place != Load::none) text += number_line(number.name, scene.inputs.*load_inputs[place], number.unit);

@@ -59,7 +59,9 @@ void look_into_stops(Scene const& scene, Isa isa, std::vector<Inputs> const& inp
     std::vector<ProbeResult> const stopped = probe(isa, with, inputs, times), free = probe(isa, without, inputs, times);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         double stiffest = 0;
-        for (Load const& stop : stops) stiffest = std::max(stiffest, inputs[i].*load_inputs[stop.stiffness]);
+        double const reach = size_of(scene.parts.mechanism, inputs[i]).length;
+        for (Load const& stop : stops)
+            stiffest = std::max(stiffest, stop.turns ? inputs[i].*load_inputs[stop.angular_stiffness] / (reach * reach) : inputs[i].*load_inputs[stop.stiffness]);
         starts[i].into_stops = std::sqrt(2 * std::max(stopped[i].energy - free[i].energy, 0.0) / stiffest);
     }
 }

@@ -47,6 +47,7 @@ public:
     SLIDEWAY_FN Vector direction(int body, Vector const& local) const { return body == LinkageBody::ground ? local : turned(body_[body].turn, local); }
     /// Against the ground [rad].
     SLIDEWAY_FN Real angle(int body) const { return body == LinkageBody::ground ? Real(0.0) : body_[body].angle; }
+    SLIDEWAY_FN Real place(int coordinate) const { return place_[coordinate]; }
     SLIDEWAY_FN Real rate(int coordinate) const { return rate_[coordinate]; }
 
     /// Adds a force at an arm from a body's origin.

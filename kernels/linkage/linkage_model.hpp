@@ -5,7 +5,9 @@
 #include "kernels/lanes/model.hpp"
 #include "kernels/linkage/block.hpp"
 #include "kernels/linkage/journal.hpp"
+#include "kernels/linkage/linkage_loads.hpp"
 #include "kernels/linkage/linkage_motion.hpp"
+#include "kernels/linkage/linkage_observer.hpp"
 #include "kernels/linkage/linkage_parameters.hpp"
 #include "kernels/linkage/linkage_plans.hpp"
 #include "kernels/linkage/linkage_report.hpp"
@@ -32,7 +34,7 @@ template <class Plan> struct LinkageModel : ContactLanes<LinkageModel<Plan>>, Co
     static constexpr bool has_patterns = false, has_linearisation = false;
     template <class Real> using Parameters = LinkageParameters<Real>;
     template <class Real> using Report = LinkageReport<Real>;
-    template <class Real> using Observer = SliderObserver<Real, LinkageReport>;
+    template <class Real> using Observer = LinkageObserver<Real>;
     template <class Real> using Memory = ContactMemory<Real, LinkageContact<Real>::quads>;
     template <class Real> using Watch = ContactWatch<Real, LinkageContact<Real>::quads>;
     template <class Real> using Accelerations = NoRecord<Keeper::accelerations>;
@@ -47,7 +49,11 @@ template <class Plan> struct LinkageModel : ContactLanes<LinkageModel<Plan>>, Co
     SLIDEWAY_HD int state_of_series(int column) const { return column < plan->states() ? column : -1; }
     SLIDEWAY_HD bool is_driven() const { return plan.is_given(this->block.drive); }
     SLIDEWAY_HD unsigned prescribed() const { return is_driven() ? 0b11u : 0u; }
-    SLIDEWAY_HD LinkageParameters<double> parameters(Inputs const& in) const { return linkage_parameters(*plan.operator->(), in); }
+    SLIDEWAY_HD LinkageParameters<double> parameters(Inputs const& in) const {
+        auto p = linkage_parameters(*plan.operator->(), in);
+        put_linkage_loads(this->block.loads, in, p);
+        return p;
+    }
     SLIDEWAY_HD void initial_state(Inputs const& in, double* state) const {
         put_linkage_start(*plan.operator->(), in, state);
     }
@@ -73,11 +79,17 @@ template <class Plan> struct LinkageModel : ContactLanes<LinkageModel<Plan>>, Co
         auto const crank = crank_of(t, s, p);
         Motion<Real> motion(plan, p, s, driven, crank);
         LinkageContact<Real>* told = nullptr;
-        if constexpr (Full) told = &report->contact, told->start();
+        if constexpr (Full) told = &report->contact, report->start();
         push(motion, memory, told);
+        Real const time = t + p.start_time;
+        if (plan.is_loaded(this->block.loads)) {
+            LinkageReport<Real>* of_loads = nullptr;
+            if constexpr (Full) of_loads = report;
+            LinkageLoads<Motion<Real>>(motion, of_loads).push(this->block.loads, {crank.place, time, Real(0.0), Real(0.0), crank.velocity});
+        }
         Real motor(0.0);
         if (plan->is_driven && !driven) {
-            motor = motor_torque(this->block.drive, p.motor, t + p.start_time, crank.place, crank.velocity);
+            motor = motor_torque(this->block.drive, p.motor, time, crank.place, crank.velocity);
             motion.turn(0, motor);
         }
         motion.gather();
@@ -165,7 +177,7 @@ private:
         report.acceleration = {zero, zero, zero};
         report.drive_torque = report.crank_torque = driven ? motion.drive_torque(acceleration) : motor;
         report.crank_power = report.drive_torque * crank.velocity;
-        report.energy = motion.energy() + report.contact.potential;
+        report.energy = motion.energy() + (report.contact.potential + report.spring_potential);
     }
 };
 

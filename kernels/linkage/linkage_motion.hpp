@@ -26,7 +26,7 @@ public:
         each_coordinate([&](int c) SLIDEWAY_INLINED { h_[c] = Real(0.0); });
     }
 
-    /// Adds a torque along a coordinate that is an angle.
+    /// Adds a torque along a coordinate that is an angle, or a force along one that is a displacement.
     SLIDEWAY_FN void turn(int coordinate, Real torque) { h_[coordinate] = h_[coordinate] - torque; }
 
     /// Inwards: M and h, and the factors of M.

@@ -29,6 +29,8 @@ template <class Real> struct LinkageParameters {
         Vec2<Real> along;        // u: a prismatic joint's line, in the axes of the body below
         Real reach;              // largest distance of a point that it carries [m]
         Real angle, speed;       // near which it starts
+        Vec2<Real> origin;       // where its axes begin for the kernels, in those of the scene [m]
+        Real turn;               // and how far the latter are turned against them: a prismatic joint's body has those of the body below [rad]
     };
     struct Closure {
         Vec2<Real> point[2];      // on either body [m]
@@ -40,8 +42,18 @@ template <class Real> struct LinkageParameters {
         PointContact<Real> contact;
     };
 
+    /// Of a load, spring or stop.
+    struct Load {
+        Vec2<Real> point[2];   // on the body, and on what holds it [m]
+        Vec2<Real> force;      // [N]
+        Real torque, scale;    // [N m], and what both are multiplied by
+        Real rest;             // length, displacement or angle at which a spring has its preload and a stop is touched
+        Real stiffness, damping, preload, dissipation;
+    };
+
     Body body[LinkagePlan::most_bodies];
     Closure closure[LinkagePlan::most_closures];
+    Load load[LinkagePlan::most_loads];
     Vec2<Real> gravity;             // g⃗ [m/s²]
     Real crank_speed, start_angle;  // of a driven crank [rad/s], [rad]
     Real start_time;                // of the start; not 0 where a state is probed [s]
@@ -77,10 +89,8 @@ SLIDEWAY_HD inline LinkageParameters<double> linkage_parameters(LinkagePlan cons
     LinkageParameters<double> p{};
     auto const number = [&](int place) { return place == LinkageBody::none ? 0.0 : in.*linkage_inputs[place]; };
     auto const point = [&](int const (&places)[2]) { return Vec2<double>{number(places[0]), number(places[1])}; };
-    // Where the axes of a body begin for the kernels, and how far its own are turned: a prismatic joint's are those of the body below.
-    Vec2<double> origin[LinkagePlan::most_bodies] = {};
-    double turn[LinkagePlan::most_bodies] = {};
-    auto const local = [&](int body, Vec2<double> at) { return body == LinkageBody::ground ? at : turned(at - origin[body], turn[body]); };
+    auto const turn = [&](int body) { return body == LinkageBody::ground ? 0 : p.body[body].turn; };
+    auto const local = [&](int body, Vec2<double> at) { return body == LinkageBody::ground ? at : turned(at - p.body[body].origin, turn(body)); };
     auto const reach = [&](int body, Vec2<double> at) {
         if (body != LinkageBody::ground) p.body[body].reach = max(p.body[body].reach, length(at));
     };
@@ -88,13 +98,13 @@ SLIDEWAY_HD inline LinkageParameters<double> linkage_parameters(LinkagePlan cons
         LinkageBody const& of = plan.body[i];
         auto& body = p.body[i];
         bool const slides = of.joint == TreeJoint::prismatic;
-        origin[i] = of.joint == TreeJoint::floating ? point(of.center) : point(of.own);
-        turn[i] = slides ? number(of.turn) + (of.parent == LinkageBody::ground ? 0 : turn[of.parent]) : 0;
+        body.origin = of.joint == TreeJoint::floating ? point(of.center) : point(of.own);
+        body.turn = slides ? number(of.turn) + turn(of.parent) : 0;
         body.mass = number(of.mass);
         body.inertia = number(of.inertia);
         body.center = local(i, point(of.center));
         body.at = local(of.parent, point(of.on_parent));
-        auto const direction = sincos(number(of.direction) + (of.parent == LinkageBody::ground ? 0 : turn[of.parent]));
+        auto const direction = sincos(number(of.direction) + turn(of.parent));
         body.along = {direction.cos, direction.sin};
         body.angle = number(of.angle);
         body.speed = number(of.speed);
@@ -138,12 +148,10 @@ SLIDEWAY_HD inline LinkageParameters<double> linkage_parameters(LinkagePlan cons
         closure.journal = bearing - closure.clearance;
         closure.half_length = 0.5 * number(of.length);
         closure.half_height = 0.5 * number(of.height);
-        closure.direction = number(of.direction);
-        // Of a prismatic joint's body the axes are those of the body below.
-        if (of.body[1] != LinkageBody::ground) closure.direction += turn[of.body[1]];
+        closure.direction = number(of.direction) + turn(of.body[1]);
         auto const walls = sincos(closure.direction);
         closure.along = {walls.cos, walls.sin};
-        if (of.body[0] != LinkageBody::ground) closure.direction -= turn[of.body[0]];
+        closure.direction -= turn(of.body[0]);
         closure.contact = point_contact(in);
         if (of.kind == ClosureKind::journal) closure.contact.stiffness = sphere_stiffness(in, closure.journal, bearing);
         if (of.stiffness != LinkageBody::none) closure.contact.stiffness = number(of.stiffness);

@@ -68,7 +68,7 @@ struct LinkageClosure {
 enum class AssemblyFault { none, open, redundant };
 
 struct LinkagePlan {
-    static constexpr int most_bodies = 8, most_coordinates = most_linkage_coordinates, most_closures = 8, most_loops = 3, most_pairs = 8;
+    static constexpr int most_bodies = 8, most_coordinates = most_linkage_coordinates, most_closures = 8, most_loops = 3, most_pairs = 8, most_loads = 8;
     static constexpr int most_states = 2 * most_coordinates;
 
     int bodies = 0, coordinates = 0, closures = 0;
@@ -77,6 +77,8 @@ struct LinkagePlan {
     int above[most_coordinates] = {};  // of a coordinate the next one towards the ground; −1 where there is none
     int owner[most_coordinates] = {};  // the body that a coordinate is of
     int is_driven = 0;                 // 1: coordinate 0 is the angle of the crank
+    // Of a plan that the compiler is to know, 1: the crank turns by a torque or none, and something acts beside weight, drive and joints.
+    int turns_freely = 0, is_loaded = 0;
 
     constexpr int states() const { return 2 * coordinates; }
     /// How many of the closures are loops without clearance.

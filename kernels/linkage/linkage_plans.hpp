@@ -5,6 +5,7 @@
 
 #include "kernels/linkage/linkage_plan.hpp"
 #include "kernels/loads/drive_plan.hpp"
+#include "kernels/loads/load_list.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -18,6 +19,8 @@ struct PlanTable {
     SLIDEWAY_FN LinkagePlan const* operator->() const { return table; }
     /// Whether the drive gives coordinate 0.
     SLIDEWAY_FN bool is_given(DrivePlan const& drive) const { return table->is_driven && !drive.turns_freely(); }
+    /// Whether something acts beside weight, drive and joints.
+    SLIDEWAY_FN static bool is_loaded(LoadList const& loads) { return loads.count > 0; }
 
     /// Has a function see 0 … count − 1, upwards or downwards.
     template <class See> SLIDEWAY_FN static void up(int count, See const& see) {
@@ -37,14 +40,15 @@ struct PlanTable {
 };
 
 /// A plan that the compiler knows: loops are written out, so that looking it up costs nothing.  The same sums in the same order as by PlanTable.
-/// @tparam Source has a `static constexpr LinkagePlan plan`, and says whether its crank `turns_freely`
+/// @tparam Source has a `static constexpr LinkagePlan plan`
 template <class Source> struct PlanConstant {
     static constexpr int most_coordinates = Source::plan.coordinates, most_loops = Source::plan.loops();
     static constexpr int room = std::max({Source::plan.coordinates, Source::plan.bodies, Source::plan.closures, 2 * Source::plan.loops()});
 
     explicit constexpr PlanConstant(LinkagePlan const&) {}
     SLIDEWAY_FN constexpr LinkagePlan const* operator->() const { return &Source::plan; }
-    SLIDEWAY_FN static constexpr bool is_given(DrivePlan const&) { return Source::plan.is_driven && !Source::turns_freely; }
+    SLIDEWAY_FN static constexpr bool is_given(DrivePlan const&) { return Source::plan.is_driven && !Source::plan.turns_freely; }
+    SLIDEWAY_FN static constexpr bool is_loaded(LoadList const&) { return Source::plan.is_loaded; }
 
     template <class See> SLIDEWAY_FN static void up(int count, See const& see) {
         [&]<int... i>(std::integer_sequence<int, i...>) SLIDEWAY_INLINED { ((i < count ? see(i) : void()), ...); }(std::make_integer_sequence<int, room>());

@@ -61,14 +61,34 @@ template <class Real> struct LinkageContact : ContactTotals<Real> {
     }
 };
 
-/// Columns of a sample of a linkage: the state, then these, then three of each closure: where its journal or block is, and the force.
-enum class LinkageSeries { drive_torque = LinkagePlan::most_states, normal_force, first_of_closures };
-inline constexpr int linkage_series_count = static_cast<int>(LinkageSeries::first_of_closures) + 3 * LinkagePlan::most_closures;
+/// Columns of a sample of a linkage: the state, then these, then three of each closure: where its journal or block is, and the force; then two of each load:
+/// its force or torque, and what a spring or stop stores or else the power of the load.
+enum class LinkageSeries {
+    drive_torque = LinkagePlan::most_states,
+    normal_force,
+    first_of_closures,
+    first_of_loads = first_of_closures + 3 * LinkagePlan::most_closures,
+    count = first_of_loads + 2 * LinkagePlan::most_loads,
+};
+inline constexpr int linkage_series_count = static_cast<int>(LinkageSeries::count);
+static_assert(linkage_series_count <= selection_bits && quantity_count + LinkagePlan::most_loads <= selection_bits);
 
 /// All that a state of a linkage tells beside its derivative.
 template <class Real> struct LinkageReport : MechanismReport<Real> {
     static constexpr int apices = LinkagePlan::most_closures;  // as many forces are kept
     LinkageContact<Real> contact;
+    /// Of a spring its tension and of a stop its push, or the torque of either, and what they store; of another load its power; and of each the power of what
+    /// it does to the bodies.
+    struct Told { Real force, shown, power; };
+    Told load[LinkagePlan::most_loads];
+
+    /// Nothing touches, and nothing acts.
+    SLIDEWAY_FN void start() {
+        Real const zero(0.0);
+        contact.start();
+        this->load_power = this->spring_loss = this->spring_potential = zero;
+        for (auto& one : load) one = {zero, zero, zero};
+    }
 
     /// No angle is small by nature.
     SLIDEWAY_FN static Real tilt(Real const*, int) { return Real(0.0); }
@@ -77,6 +97,11 @@ template <class Real> struct LinkageReport : MechanismReport<Real> {
     SLIDEWAY_FN Real series_value(int column) const {
         if (column == static_cast<int>(LinkageSeries::drive_torque)) return this->drive_torque;
         if (column == static_cast<int>(LinkageSeries::normal_force)) return contact.total_force();
+        if (column >= static_cast<int>(LinkageSeries::first_of_loads)) {
+            int const of_loads = column - static_cast<int>(LinkageSeries::first_of_loads);
+            Told const& one = load[of_loads / 2];
+            return of_loads % 2 == 0 ? one.force : one.shown;
+        }
         int const of_closures = column - static_cast<int>(LinkageSeries::first_of_closures), closure = of_closures / 3;
         if (of_closures % 3 == 2) return contact.force[closure];
         return of_closures % 3 == 0 ? contact.offset[closure].x : contact.offset[closure].y;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/loads/element_pull.hpp"
 #include "kernels/loads/load_list.hpp"
 #include "kernels/loads/load_numbers.hpp"
 #include "kernels/math/vec3.hpp"
@@ -19,7 +20,6 @@ template <class Real> struct ElementForce {
     }
 
 private:
-    /// Tension T0 + k (ℓ − ℓ0) + c ℓ'.
     SLIDEWAY_FN static ElementForce of_spring(Load const& load, LoadNumbers<Real> const& numbers, Vec3<Real> const& place, Vec3<Real> const& velocity) {
         Real const zero(0.0), one(1.0), least_square(1e-30);  // where its ends meet it has no direction
         auto const span = place - numbers.as_given(load.anchor);
@@ -31,19 +31,16 @@ private:
         }
         Real const stretch = length - numbers.as_given(load.rest_length), rate = dot(along, velocity);
         Real const stiffness = numbers.as_given(load.stiffness), preload = numbers.as_given(load.preload), damping = numbers.as_given(load.damping);
-        Real const tension = fma(damping, rate, fma(stiffness, stretch, preload));
-        return {negated(tension) * along, stretch * fma(Real(0.5) * stiffness, stretch, preload), damping * (rate * rate)};
+        auto const pull = ElementPull<Real>::of_spring(stretch, rate, stiffness, damping, preload);
+        return {negated(pull.force) * along, pull.potential, pull.loss};
     }
 
-    /// k δ (1 + χ δ') + c δ' where it is touched, and never a pull.
     SLIDEWAY_FN static ElementForce of_stop(Load const& load, LoadNumbers<Real> const& numbers, Real x, Real vx) {
-        Real const zero(0.0), one(1.0), side(load.side);
+        Real const zero(0.0), side(load.side);
         Real const depth = side * (x - numbers.as_given(load.anchor[0])), rate = side * vx;
-        auto const touches = depth > zero;
-        Real const elastic = numbers.as_given(load.stiffness) * depth;
-        Real const damped = fma(elastic, fma(numbers.as_given(load.dissipation), rate, one), numbers.as_given(load.damping) * rate);
-        Real const push = select(touches, max(damped, zero), zero);
-        return {{negated(side) * push, zero, zero}, select(touches, Real(0.5) * elastic * depth, zero), select(touches, (push - elastic) * rate, zero)};
+        auto const pull = ElementPull<Real>::of_stop(depth, rate, numbers.as_given(load.stiffness), numbers.as_given(load.damping),
+                                                     numbers.as_given(load.dissipation));
+        return {{negated(side) * pull.force, zero, zero}, pull.potential, pull.loss};
     }
 };
 

@@ -30,9 +30,9 @@ struct PieceTable {
 };
 
 enum class LoadKind {
-    push,           // force and torque on the slider, or a torque on the crank
-    spring,         // from a point of the slider to one of the ground, or along X alone
-    stop,           // pushes the slider back from a place along X
+    push,           // force and torque on the slider, or a torque on the crank; on a body of a linkage, perhaps against another
+    spring,         // from a point of the slider to one of the ground, or along X alone; of a linkage between points or angles of two bodies, or along a joint
+    stop,           // pushes the slider back from a place along X; of a linkage along a joint, or from an angle between two bodies
     ground_motion,  // acceleration of the ground
     way_profile,    // faces of the way that are not straight
     way_ends,       // where the way begins and ends
@@ -49,8 +49,8 @@ struct Load {
     int point[3] = {none, none, none};  // where it acts, in the slider's frame [m]
     // of a push
     int torque[3] = {none, none, none};  // [N m], beside that of the force about the slider's centre
-    int crank_torque = none;             // [N m], on the crank
-    bool turns_with_slider = false;      // force and torque are along the slider's axes, not those of the ground
+    int crank_torque = none;             // [N m], on the crank, or on a linkage's body
+    bool turns_with_slider = false;      // force and torque are along the axes of the slider or body, not those of the ground
     // of a push, and of the ground's acceleration
     int scale = none;  // of all that; 1 where there is none
     LoadArgument over = LoadArgument::nothing;
@@ -67,6 +67,16 @@ struct Load {
     int faces = 0;                       // of a way's profile: bit i where face i has it, Y+, Y−, Z+, Z−
     double steepest = 0;                 // and its slope, before its scale
     int from = none, to = none;          // of a way's ends: x of them [m]
+    // of what acts on a linkage: bodies of its plan, −1 the ground
+    int body[2] = {none, none};  // it acts on the first, in whose axes its point is, and the other way on the second, in whose axes its anchor is
+    int coordinate = none;       // of a spring or stop along a prismatic joint: its displacement
+    int closure = none;          // of one along a block's walls
+    bool turns = false;          // a spring or stop of the angle of the first body against the second
+    int angle = none;            // where that has its preload, or where the stop is touched [rad]
+    int angular_stiffness = none;    // [N m/rad]
+    int angular_damping = none;      // [N m s/rad]
+    int angular_preload = none;      // torque at that angle [N m]
+    int angular_dissipation = none;  // [s/rad]
     // of a film
     int viscosity = none;            // [Pa s]
     int least_gap = none;            // a narrower one counts as this [m]
@@ -74,7 +84,7 @@ struct Load {
 };
 
 inline constexpr double most_profile_slope = 0.05;  // beyond it the slip is not along the way any more (model.md 18)
-inline constexpr int most_load_numbers = 16;  // of all loads of a scene
+inline constexpr int most_load_numbers = 26;  // of all loads of a scene
 
 struct LoadList {
     Load const* loads = nullptr;  // [count]

@@ -38,6 +38,7 @@ struct MechanismInfo {
     bool has_exponents = true;  // members may have neighbours beside them
     bool on_cards = false;      // there are kernels for cards
     std::span<SeriesInfo const> own_series = {};  // of a linkage: what the bits of its series are, in the place of series_table
+    std::span<QuantityInfo const> own_quantities = {};  // of a linkage: the work of its loads, behind those of quantity_table
     std::span<Key const> own_keys = {};  // of numbers of its own, on Inputs::mechanism_a … mechanism_p
     std::span<Signal const> signals = {};  // that its `put_signals(t, state, parameters, report, values)` tells, in their order
 };

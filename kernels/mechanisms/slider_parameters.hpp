@@ -66,7 +66,7 @@ SLIDEWAY_FN FrictionParameters<double> friction_parameters(Inputs const& in) {
 SLIDEWAY_FN void put_load_numbers(Inputs const& in, double (&numbers)[most_load_numbers]) {
     int i = 0;
 #define SLIDEWAY_NUMBER(letter) numbers[i++] = in.load_##letter;
-    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_NUMBER)
+    SLIDEWAY_LOAD_NUMBERS(SLIDEWAY_NUMBER)
 #undef SLIDEWAY_NUMBER
 }
 

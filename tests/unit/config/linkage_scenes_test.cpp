@@ -64,7 +64,7 @@ TEST(LinkageScenes, NameWhatIsWrongWithThem) {
         {crank() + "[body.rod]\nmass = 0\ninertia = 1e-4\n" + pin + study, "body.rod.mass"},
         {crank() + "[body.rod]\nmass = 0.1\n" + pin + study, "body.rod.inertia is missing"},
         {crank() + "[body.rod]\nmass = 0.1\nmas = 2\n" + pin + study, "did you mean \"mass\"?"},
-        {whole("[load.push]\nforce_x = 1\n"), "[load] does not act on linkages yet"},
+        {whole("[ground_motion]\ntable = \"quake.csv\"\n"), "[ground_motion] does not act on linkages yet"},
         {crank() + rod + slider + pin + wrist("kind = \"journal\"\nradius = 0.01\n") + way + study, "link.wrist.clearance is missing"},
         {crank() + rod + slider + pin + wrist("kind = \"journal\"\nclearance = 0.02\nradius = 0.01\n") + way + study, "no journal is left in the bearing"},
         {crank() + rod + slider + pin + wrist("kind = \"hinge\"\n") + way + study, "kind"},
@@ -128,7 +128,60 @@ TEST(LinkageScenes, HaveForcesOfTheirJointsAsQuantities) {
     EXPECT_TRUE(contains(error_of(whole("quantities = [\"peak_force_pin\"]\n")), "peak_force_pin"));
 }
 
+TEST(LinkageScenes, NameWhatIsWrongWithTheirLoads) {
+    struct { std::string text, part; } const cases[] = {
+        {"[load.a]\nforce_x = 1\n", "load.a.on is missing (which body it acts on); add on = \"crank\""},
+        {"[load.a]\non = \"slide\"\nforce_x = 1\n", "load.a.on is \"slide\" (there is no such body); did you mean \"slider\"?"},
+        {"[load.a]\non = \"ground\"\nforce_x = 1\n", "the ground stays where it is"},
+        {"[load.a]\non = \"rod\"\nagainst = \"rod\"\nforce_x = 1\n", "it acts between two bodies"},
+        {"[load.a]\non = \"rod\"\ntorque_z = 1\n", "load.a.torque_z is 1 (it is of loads on a slider); use torque"},
+        {"[load.a]\non = \"rod\"\nforce_z = 1\n", "load.a.force_z has no meaning"},
+        {"[load.a]\non = \"rod\"\nframe = \"slider\"\nforce_x = 1\n", "load.a.frame"},
+        {"[load.a]\non = \"rod\"\n", "a load without a force or a torque does nothing"},
+        {"[load.a]\non = \"rod\"\nforce_x = 1\ntable = \"t.csv\"\nover = \"x\"\ncolumn = \"f\"\n", "load.a.over is \"x\" (it is of a slider)"},
+        {"[spring.a]\nstiffness = 1\nrest_length = 1\n", "spring.a.on is missing (which body or joint it acts on)"},
+        {"[spring.a]\non = \"rod\"\n", "spring.a.stiffness is missing"},
+        {"[spring.a]\non = \"rod\"\nstiffness = 1\n", "spring.a.rest_length is missing"},
+        {"[spring.a]\non = \"rod\"\nangle = 1\n", "spring.a.angular_stiffness is missing"},
+        {"[spring.a]\non = \"rod\"\nangular_stiffness = 1\n", "spring.a.angle is missing"},
+        {"[spring.a]\non = \"rod\"\nangular_stiffness = 1\nangle = 1\nstiffness = 1\n", "spring.a.stiffness is 1 (spring.a.angular_stiffness makes it one of an angle)"},
+        {"[spring.a]\non = \"rod\"\nalong = \"x\"\nstiffness = 1\nrest_length = 1\n", "spring.a.along has no meaning"},
+        {"[spring.a]\nlink = \"wai\"\nstiffness = 1\nrest_length = 1\n", "spring.a.link is \"wai\" (there is no such joint); did you mean \"way\"?"},
+        {"[spring.a]\nlink = \"way\"\non = \"rod\"\nstiffness = 1\nrest_length = 1\n", "spring.a.link says which bodies it is between"},
+        {"[spring.a]\nlink = \"pin\"\nstiffness = 1\nrest_length = 1\n", "a pin has no displacement"},
+        {"[spring.a]\nlink = \"way\"\nangular_stiffness = 1\nangle = 1\n", "it leads along a line"},
+        {"[stop.a]\non = \"slider\"\nposition = 1\nblocks = \"+x\"\nstiffness = 1\n", "stop.a.link is missing"},
+        {"[stop.a]\nlink = \"way\"\nposition = 1\nblocks = \"+angle\"\nstiffness = 1\n", "stop.a.blocks"},
+        {"[stop.a]\nlink = \"way\"\nposition = 1\nstiffness = 1\n", "stop.a.blocks is missing"},
+        {"[stop.a]\nlink = \"way\"\npoint_x = 1\nposition = 1\nblocks = \"+x\"\nstiffness = 1\n", "stop.a.point_x has no meaning"},
+        {"[stop.a]\non = \"rod\"\nangle = 1\nblocks = \"+angle\"\n", "stop.a.angular_stiffness is missing"},
+        {"[stop.a]\non = \"rod\"\nangle = 1\nblocks = \"+angle\"\nangular_stiffness = -1\n", "stop.a.angular_stiffness"},
+        {"[spring.rod]\nlink = \"way\"\nstiffness = 1\nrest_length = 1\n[stop.rod]\nlink = \"way\"\nposition = 1\nblocks = \"+x\"\nstiffness = 1\n", "results would have two rod_force"},
+    };
+    for (auto const& [text, part] : cases) EXPECT_TRUE(contains(error_of(whole(text)), part)) << part << "\n" << error_of(whole(text));
+    std::string many;
+    for (char const name : {'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h', 'i'}) many += std::string("[load.") + name + "]\non = \"rod\"\ntorque = 1\n";
+    EXPECT_TRUE(contains(error_of(whole(many)), "load.i is one of too many (a linkage has 8 loads, springs and stops at most together)")) << error_of(whole(many));
+}
+
 TEST(LinkageScenes, AreReadAgainFromTheirResolvedText) {
+    Scene const loaded = testing::scene_of(whole("[load.push]\non = \"rod\"\nagainst = \"crank\"\nforce_x = 1\nframe = \"body\"\n[spring.back]\nlink = \"way\"\nstiffness = 2\nrest_length = 0.1\n"
+                                                 "[stop.end]\nlink = \"pin\"\nangle = 1\nblocks = \"-angle\"\nangular_stiffness = 3\n"));
+    EXPECT_EQ(resolved_toml(testing::scene_of(resolved_toml(loaded))), resolved_toml(loaded));
+    ASSERT_EQ(loaded.parts.loads.count, 3);
+    Load const &push = loaded.parts.loads.loads[0], &stop = loaded.parts.loads.loads[2];
+    LinkagePlan const& plan = *loaded.parts.linkage;
+    auto const& bodies = linkage_of(loaded.parts.mechanism)->bodies;
+    EXPECT_EQ(bodies[static_cast<std::size_t>(push.body[0])], "rod");
+    EXPECT_EQ(bodies[static_cast<std::size_t>(push.body[1])], "crank");
+    EXPECT_TRUE(push.turns_with_slider);
+    EXPECT_EQ(plan.body[plan.owner[loaded.parts.loads.loads[1].coordinate]].joint, TreeJoint::prismatic);
+    EXPECT_TRUE(stop.turns);
+    EXPECT_EQ(stop.side, -1);
+    EXPECT_EQ(bodies[static_cast<std::size_t>(stop.body[0])], "rod");
+    // Columns of loads are of the linkage.
+    EXPECT_NE(loaded.parts.mechanism, testing::scene_of(whole()).parts.mechanism);
+
     Scene const scene = testing::scene_of(whole());
     std::string const text = resolved_toml(scene);
     Scene const again = testing::scene_of(text);

@@ -131,7 +131,13 @@ TEST(SceneLoads, ErrorsAreOneLine) {
              Bad{"[mechanism]\nkind = \"carriage\"\n[load.gas]\non = \"crank\"\ntorque = 1\n", "a carriage has no crank"},
              Bad{"[mechanism]\nkind = \"planar_slider_crank\"\n[load.gas]\nforce_z = 1\n", "load.gas.force_z has no meaning"},
              Bad{"[load.a]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\npoint_z=0\n"
-                 "[load.b]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\n", "have sixteen numbers at most together"},
+                 "[load.b]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\npoint_z=0\n"
+                 "[load.c]\nforce_x=1\nforce_y=1\nforce_z=1\ntorque_x=1\ntorque_y=1\ntorque_z=1\npoint_x=0\npoint_y=0\npoint_z=0\n", "have 26 numbers at most together"},
+             Bad{"[load.gas]\nforce_x = 1\nagainst = \"rod\"\n", "load.gas.against has no meaning"},
+             Bad{"[load.gas]\nforce_x = 1\nframe = \"body\"\n", "load.gas.frame"},
+             Bad{"[spring.s]\non = \"slider\"\nanchor_x = 1\nstiffness = 1\nrest_length = 1\n", "spring.s.on has no meaning"},
+             Bad{"[stop.s]\nangle = 1\nposition = 1\nblocks = \"+x\"\nstiffness = 1\n", "stop.s.angle has no meaning"},
+             Bad{"[stop.s]\nposition = 1\nblocks = \"+angle\"\nstiffness = 1\n", "stop.s.blocks"},
          }) {
         expect_refused(std::string("schema = 1\n") + bad.text, bad.words);
     }

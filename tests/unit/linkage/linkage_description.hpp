@@ -22,11 +22,14 @@ constexpr int ground = -1;
 struct Body { std::string name; double mass, inertia, center_x, center_y, angle = 0, speed = 0; };
 /// @param more lines of the scene that say the rest
 struct Link { std::string kind; int first, second; double x1, y1, x2, y2; std::map<std::string, double> more; };
+/// A load, spring or stop.  @param link number of a joint, or −1  @param words lines of the scene beside numbers
+struct Acting { std::string kind; int on, against, link; std::map<std::string, double> numbers; std::string words; };
 struct Description {
     std::vector<Body> bodies;
     std::vector<Link> links;
     bool is_driven = true, has_friction = false;
     double speed = 20;
+    std::vector<Acting> loads = {};
 };
 
 inline Pair across(Pair const& v) { return {-v.y(), v.x()}; }
@@ -52,6 +55,13 @@ inline std::string scene_text(Description const& of, double start_angle) {
         text += fmt::format("[link.l{}]\nkind = \"{}\"\nfirst = \"{}\"\nsecond = \"{}\"\nfirst_x = {}\nfirst_y = {}\nsecond_x = {}\nsecond_y = {}\n", i, link.kind, name(link.first),
                             name(link.second), link.x1, link.y1, link.x2, link.y2);
         for (auto const& [key, value] : link.more) text += fmt::format("{} = {}\n", key, value);
+    }
+    for (std::size_t i = 0; i < of.loads.size(); ++i) {
+        Acting const& load = of.loads[i];
+        text += fmt::format("[{}.a{}]\n{}", load.kind, i, load.words);
+        if (load.link >= 0) text += fmt::format("link = \"l{}\"\n", load.link);
+        else text += fmt::format("on = \"{}\"\nagainst = \"{}\"\n", name(load.on), name(load.against));
+        for (auto const& [key, value] : load.numbers) text += fmt::format("{} = {}\n", key, value);
     }
     if (of.has_friction) text += "[friction]\nstatic = 0.3\nkinetic = 0.2\nstick_speed = 0.01\nslip_speed = 0.05\n";
     return text + "[contact]\neta = 0.3\n[study]\nduration = 0.1\n";

@@ -1,4 +1,5 @@
-// Right-hand sides of linkages against another formulation: absolute coordinates of all bodies and a multiplier for each constraint, in long double.
+// Right-hand sides of linkages, with loads, springs and stops or without, against another formulation: absolute coordinates of all bodies and a
+// multiplier for each constraint, in long double.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,6 +24,9 @@ namespace {
 
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using Column = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+/// What loads do in a state: power of pushes, loss of dampers, potential of springs and stops.
+struct LoadSums { Real power = 0, loss = 0, potential = 0; };
+
 
 /// The linkage in absolute coordinates.
 class AbsoluteLinkage {
@@ -60,6 +64,7 @@ public:
             if (link.kind == "journal") add_journal(link, force);
             if (link.kind == "block") add_block(link, force);
         }
+        for (Acting const& load : of_.loads) add_load(load, force);
         std::vector<Column> rows;
         std::vector<Real> biases;  // row · a = bias
         for (Link const& link : of_.links) add_rows(link, n, rows, biases);
@@ -79,6 +84,14 @@ public:
             right(n + i) = biases[static_cast<std::size_t>(i)];
         }
         return Column(whole.fullPivLu().solve(right)).head(n);
+    }
+
+    /// Of the state, once accelerations are known.
+    LoadSums sums() const {
+        Column nothing = Column::Zero(static_cast<Eigen::Index>(3 * of_.bodies.size()));
+        LoadSums all;
+        for (Acting const& load : of_.loads) add_load(load, nothing, &all);
+        return all;
     }
 
     /// What the kernel's coordinate of a body should accelerate by.
@@ -183,6 +196,60 @@ private:
         push(link.first, a, touch, by, 0, force);
         push(link.second, b, touch, Pair(-by), 0, force);
     }
+    /// Forces on both bodies at one place of the ground.
+    void push_both(int on, int against, Pair const& place, Pair const& by, Real torque, Column& force) const {
+        push(on, point(on, 0, 0), place, by, torque, force);
+        push(against, point(against, 0, 0), place, Pair(-by), -torque, force);
+    }
+    Pair velocity_at(int body, Pair const& place) const {
+        Point const origin = point(body, 0, 0);
+        return origin.velocity + spin(body) * across(Pair(place - origin.place));
+    }
+    /// Of a spring or stop against stretch or depth.
+    static Real pull_of(Acting const& load, bool turns, double side, Real stretch, Real rate, LoadSums* sums) {
+        std::string const prefix = turns ? "angular_" : "";
+        auto const number = [&](std::string const& key) { return load.numbers.contains(key) ? Real(load.numbers.at(key)) : Real(0); };
+        Real const k = number(prefix + "stiffness"), c = number(prefix + "damping"), chi = number(prefix + "dissipation"), preload = number(prefix + "preload");
+        Real pull = preload + k * stretch + c * rate, stored = preload * stretch + k * stretch * stretch / 2, loss = c * rate * rate;
+        if (load.kind == "stop") {
+            Real const depth = side * stretch, speed = side * rate;
+            Real const push = depth > 0 ? std::max(Real(0), k * depth * (1 + chi * speed) + c * speed) : Real(0);
+            pull = side * push, stored = depth > 0 ? k * depth * depth / 2 : 0, loss = depth > 0 ? (push - k * depth) * speed : 0;
+        }
+        if (sums != nullptr) sums->loss += loss, sums->potential += stored;
+        return pull;
+    }
+    void add_load(Acting const& load, Column& force, LoadSums* sums = nullptr) const {
+        auto const number = [&](std::string const& key) { return load.numbers.contains(key) ? load.numbers.at(key) : 0.0; };
+        double const side = load.words.find("\"-") != std::string::npos ? -1 : 1;
+        if (load.kind == "load") {
+            Point const at = point(load.on, number("point_x"), number("point_y"));
+            double const scale = load.numbers.contains("scale") ? number("scale") : 1;
+            Pair const by = Real(scale) * turned(load.words.find("body") != std::string::npos ? angle(load.on) : Real(0), number("force_x"), number("force_y"));
+            Real const torque = Real(scale) * Real(number("torque"));
+            push_both(load.on, load.against, at.place, by, torque, force);
+            if (sums != nullptr) sums->power += by.dot(Pair(at.velocity - velocity_at(load.against, at.place))) + torque * (spin(load.on) - spin(load.against));
+        } else if (load.numbers.contains("angle")) {
+            Real const torque = pull_of(load, true, side, angle(load.on) - angle(load.against) - Real(number("angle")), spin(load.on) - spin(load.against), sums);
+            push_both(load.on, load.against, {0, 0}, {0, 0}, -torque, force);
+        } else if (load.link >= 0) {
+            // Along the line of a joint, which is on its first body, or on the walls of its second one.
+            Link const& link = of_.links[static_cast<std::size_t>(load.link)];
+            bool const slides = link.kind == "prismatic";
+            int const line = slides ? link.first : link.second, moving = slides ? link.second : link.first;
+            Point const from = slides ? point(line, link.x1, link.y1) : point(line, link.x2, link.y2), to = slides ? point(moving, link.x2, link.y2) : point(moving, link.x1, link.y1);
+            Pair const along = turned(angle(line) + direction(link), 1, 0);
+            Real const rest = load.kind == "stop" ? number("position") : number("rest_length");
+            Real const pull = pull_of(load, false, side, along.dot(Pair(to.place - from.place)) - rest, along.dot(Pair(to.velocity - velocity_at(line, to.place))), sums);
+            push_both(moving, line, to.place, Pair(-pull * along), 0, force);
+        } else {
+            Point const at = point(load.on, number("point_x"), number("point_y")), anchor = point(load.against, number("anchor_x"), number("anchor_y"));
+            Pair const span = at.place - anchor.place, along = span / span.norm();
+            Real const pull = pull_of(load, false, side, span.norm() - Real(number("rest_length")), along.dot(Pair(at.velocity - anchor.velocity)), sums);
+            push_both(load.on, load.against, at.place, Pair(-pull * along), 0, force);
+        }
+    }
+
     Real elastic(Link const& link, Real depth, Real journal, Real bearing) const {
         Real k = number(link, "stiffness");
         if (k == 0) {
@@ -322,6 +389,30 @@ std::pair<std::string, Description> drawn(int which) {
     throw std::logic_error("no linkage was drawn");
 }
 
+/// A linkage with pushes and springs between points, or with what acts along its joints and between angles.
+Description loaded(Description of, bool on_joints) {
+    // The other body of a spring is free to answer it, where there is one beside a driven crank.
+    int const last = static_cast<int>(of.bodies.size()) - 1, other = last > 1 ? 1 : 0;
+    if (!on_joints) {
+        of.loads.push_back({"load", last, ground, -1, {{"force_x", 30}, {"force_y", -50}, {"point_x", 0.02}, {"point_y", -0.03}, {"torque", 0.7}}, "frame = \"body\"\n"});
+        of.loads.push_back({"load", 0, last, -1, {{"force_x", -20}, {"force_y", 15}, {"point_x", 0.04}, {"torque", -0.4}, {"scale", 1.5}}, "frame = \"ground\"\n"});
+        of.loads.push_back({"spring", 1, ground, -1, {{"point_x", 0.05}, {"point_y", 0.01}, {"anchor_x", -0.2}, {"anchor_y", 0.3}, {"stiffness", 800}, {"damping", 3}, {"rest_length", 0.1}, {"preload", 5}}, ""});
+        of.loads.push_back({"spring", last, other, -1, {{"point_x", 0.01}, {"anchor_y", 0.07}, {"stiffness", 500}, {"damping", 2}, {"rest_length", 0.3}}, ""});
+        return of;
+    }
+    of.loads.push_back({"spring", last, other, -1, {{"angle", 0.3}, {"angular_stiffness", 4}, {"angular_damping", 0.02}, {"angular_preload", 0.5}}, ""});
+    of.loads.push_back({"stop", last, ground, -1, {{"angle", -3}, {"angular_stiffness", 0.8}, {"angular_damping", 0.01}, {"angular_dissipation", 0.02}}, "blocks = \"+angle\"\n"});
+    of.loads.push_back({"stop", 0, last, -1, {{"angle", 4}, {"angular_stiffness", 0.5}}, "blocks = \"-angle\"\n"});
+    for (std::size_t i = 0; i < of.links.size(); ++i) {
+        if (of.links[i].kind != "prismatic" && of.links[i].kind != "block") continue;
+        int const at = static_cast<int>(i);
+        of.loads.push_back({"spring", 0, 0, at, {{"rest_length", 0.05}, {"stiffness", 900}, {"damping", 4}, {"preload", -3}}, ""});
+        of.loads.push_back({"stop", 0, 0, at, {{"position", -0.1}, {"stiffness", 700}, {"damping", 2}, {"dissipation", 0.05}}, "blocks = \"+x\"\n"});
+        break;
+    }
+    return of;
+}
+
 /// A state near the one that a linkage starts in, with joints pressed: places within the scales of the state, rates of the order of the drive's.
 /// What stands on loops is left as it is.
 StateNumbers shaken(StateNumbers state, Linkage const& linkage, std::mt19937_64& random, double by) {
@@ -340,11 +431,14 @@ StateNumbers shaken(StateNumbers state, Linkage const& linkage, std::mt19937_64&
 class LinkagesAgainstOracle : public ::testing::TestWithParam<int> {};
 
 TEST_P(LinkagesAgainstOracle, AccelerateAlike) {
-    bool const is_drawn = GetParam() >= fixed_linkages;
-    auto const [name, description] = is_drawn ? drawn(GetParam() - fixed_linkages) : linkages()[static_cast<std::size_t>(GetParam())];
+    int const which = GetParam() < 3 * fixed_linkages ? GetParam() % fixed_linkages : GetParam() - 2 * fixed_linkages, kind = GetParam() < 3 * fixed_linkages ? GetParam() / fixed_linkages : 0;
+    bool const is_drawn = which >= fixed_linkages;
+    auto const [name, bare] = is_drawn ? drawn(which - fixed_linkages) : linkages()[static_cast<std::size_t>(which)];
+    Description const description = kind == 0 ? bare : loaded(bare, kind == 2);
+    int const wanted_states = kind == 0 ? 200 : 60;
     std::mt19937_64 random(1);
     int pressed = 0, states = 0;
-    for (int tries = 0; states < 200; ++tries) {
+    for (int tries = 0; states < wanted_states; ++tries) {
         ASSERT_LT(tries, 1000) << name;
         double const start = description.is_driven ? std::uniform_real_distribution<double>(-0.4, 0.9)(random) : 0;
         Description turned_to = description;
@@ -371,13 +465,20 @@ TEST_P(LinkagesAgainstOracle, AccelerateAlike) {
                 EXPECT_NEAR(told.derivative[2 * (node.coordinate + c) + 1], double(want), 2e-8 * double(largest)) << name << ", " << linkage.bodies[static_cast<std::size_t>(k)];
             }
         }
+        LoadSums const sums = absolute.sums();
+        Parts unloaded = scene.parts;
+        unloaded.loads = {};
+        double const stored = told.energy - probe(Isa::scalar, unloaded, {in}, {0}).front().energy, size = std::abs(told.energy) + std::abs(stored);
+        EXPECT_NEAR(told.power_load, double(sums.power), 1e-11 * (1 + std::abs(told.power_load))) << name;
+        EXPECT_NEAR(told.loss_springs, double(sums.loss), 1e-11 * (1 + told.loss_springs)) << name;
+        EXPECT_NEAR(stored, double(sums.potential), 1e-13 * (1 + size)) << name;
         pressed += told.contact_potential > 0 ? 1 : 0;
         ++states;
     }
-    if (description.has_friction) EXPECT_GT(pressed, is_drawn ? 20 : 50) << name;
+    if (description.has_friction) EXPECT_GT(pressed, is_drawn ? 20 : wanted_states / 4) << name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Linkages, LinkagesAgainstOracle, ::testing::Range(0, fixed_linkages + drawn_linkages));
+INSTANTIATE_TEST_SUITE_P(Linkages, LinkagesAgainstOracle, ::testing::Range(0, 3 * fixed_linkages + drawn_linkages));
 
 }  // namespace
 }  // namespace slideway::linkage_oracle_test
