@@ -1,6 +1,8 @@
 // A number that counts what is done to it: the useful flops of a kernel, found by running it.
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/math/exponential.hpp"
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/real.hpp"
@@ -48,6 +50,11 @@ SLIDEWAY_FN void split_exponent(Counted x, Counted& mantissa, Counted& exponent)
 SLIDEWAY_FN SinCos<Counted> sincos(Counted x) { return detail::sine_and_cosine(x); }
 SLIDEWAY_FN Counted exp(Counted x) { return detail::exp_of_sum(x, Counted(0.0)); }
 template <int bit> SLIDEWAY_FN bool bit_of(Counted n) { return bit_of<bit>(n.value); }
+template <class Real, class Number>
+    requires std::is_same_v<Real, Counted>
+SLIDEWAY_FN Counted of_lanes(Number const& number) {
+    return Counted(number(0));
+}
 SLIDEWAY_FN double lane(Counted x, int) { return x.value; }
 SLIDEWAY_FN void set_lane(Counted& x, int, double value) { x.value = value; }
 

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
     using namespace slideway::bench;
     register_peak();
     register_functions();
+    register_linkages();
     register_laws();
     register_right_hand_sides();
     register_engine();

@@ -19,6 +19,7 @@ void count_rate(benchmark::State& state, std::string const& name, double per_ite
 /// They register their benchmarks, named group/what/instruction set, with Google Benchmark.
 void register_peak();
 void register_right_hand_sides();
+void register_linkages();
 void register_laws();
 void register_functions();
 void register_engine();

@@ -17,15 +17,14 @@ namespace {
 
 using Numbers = std::array<int, sizeof(LinkagePlan) / sizeof(int)>;
 
-/// What the compiler is to know of these parts.
-LinkagePlan plan_of(Parts const& parts) {
+}  // namespace
+
+LinkagePlan compiled_plan(Parts const& parts) {
     LinkagePlan plan = *parts.linkage;
     plan.turns_freely = plan.is_driven != 0 && parts.drive.turns_freely();
     plan.is_loaded = parts.loads.count > 0;
     return plan;
 }
-
-}  // namespace
 
 std::string linkage_module_name(LinkagePlan const& plan) { return fmt::format("plan_{:016x}", fnv1a(std::as_bytes(std::span(&plan, 1)))); }
 
@@ -44,12 +43,12 @@ struct PlanOfScene {{
 }}
 #define SLIDEWAY_LINKAGE PlanOfScene
 )",
-                       std::tuple_size_v<Numbers>, fmt::join(std::bit_cast<Numbers>(plan_of(parts)), ", "));
+                       std::tuple_size_v<Numbers>, fmt::join(std::bit_cast<Numbers>(compiled_plan(parts)), ", "));
 }
 
 MechanismKernels const* compiled_linkage(Parts const& parts, Isa isa) {
     try {
-        LinkagePlan const plan = plan_of(parts);
+        LinkagePlan const plan = compiled_plan(parts);
         auto const place = find_own_module(ModuleKind::linkage, linkage_module_name(plan), {}, [](ModuleKind, KernelModule const&) { return std::string(); });
         if (!place || !has_own_kernels(ModuleKind::linkage, *place, isa)) return nullptr;
         MechanismKernels const* const kernels = own_kernels(ModuleKind::linkage, *place, isa).mechanism;

@@ -8,7 +8,9 @@
 
 namespace slideway {
 
-/// What the module of a plan is called.
+/// What the compiler is to know of these parts.
+LinkagePlan compiled_plan(Parts const& parts);
+/// What the module of such a plan is called.
 std::string linkage_module_name(LinkagePlan const& plan);
 /// The header that the module of these parts' linkage is compiled from (module_compiler.hpp).
 std::string linkage_header(Parts const& parts);

@@ -61,7 +61,8 @@ public:
     SLIDEWAY_FN void twist(int body, Real torque) {
         if (body != LinkageBody::ground) body_[body].moment = body_[body].moment - torque;
     }
-    /// Adds nothing to what acts on a closure's bodies, or NaN in a lane whose depth there is: whatever its neighbours touch, it does not go on.
+    /// Where nothing touches at a closure adds nothing, or NaN in a lane whose depth is, as a force does there: such a lane does not go on, whatever its
+    /// neighbours touch.
     SLIDEWAY_FN void require(int closure, Real depth) {
         auto const& of = plan_->closure[closure];
         twist(of.body[0] == LinkageBody::ground ? of.body[1] : of.body[0], depth - depth);

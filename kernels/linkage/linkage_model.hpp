@@ -152,8 +152,7 @@ private:
                     Contact::at(told->rate, of.pair) = journal.rate;
                     told->offset[k] = journal.distance * journal.outward;
                 }
-                motion.require(k, journal.depth);
-                if (none(journal.depth > Real(0.0))) return;
+                if (none(journal.depth > Real(0.0))) return motion.require(k, journal.depth);
                 journal.push(motion, Contact::at(memory.impact_speed, of.pair), this->block.remembers, this->block.friction, told);
             } else if (of.kind == ClosureKind::block) {
                 BlockInWalls<Motion<Real>> const block(motion, k);
@@ -162,8 +161,7 @@ private:
                     told->rate[of.pair / 4] = block.corners.rate;
                     told->offset[k] = {block.pose.place.y, block.pose.tilt};
                 }
-                motion.require(k, block.corners.push_of_nothing().torque);
-                if (none(block.corners.deepest() > Real(0.0))) return;
+                if (none(block.corners.deepest() > Real(0.0))) return motion.require(k, block.corners.push_of_nothing().torque);
                 block.push(motion, memory.impact_speed[of.pair / 4], this->block.remembers, this->block.friction, told);
             }
         });

@@ -38,19 +38,19 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 21'656u);
-    EXPECT_LE(Layer("kernels/linkage").lines(), 1'384u);
+    EXPECT_LE(Layer("kernels").lines(), 22'052u);
+    EXPECT_LE(Layer("kernels/linkage").lines(), 1'738u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'267u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'996u);
-    EXPECT_LE(Layer("host").lines(), 32'808u);
+    EXPECT_LE(Layer("host").lines(), 33'345u);
     EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
     Pattern const type(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))");
-    EXPECT_LE(kernels.count(type).in_all, 428u);
-    EXPECT_LE(Layer("host").count(type).in_all, 388u);
+    EXPECT_LE(kernels.count(type).in_all, 433u);
+    EXPECT_LE(Layer("host").count(type).in_all, 391u);
     EXPECT_LE(Layer("host/store").count(type).in_all, 46u);
     EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }
