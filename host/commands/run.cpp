@@ -202,12 +202,16 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
 }
 
 /// A linkage that will run for minutes is compiled before, where that has not been done and can be: with the same bits in less time.
-void compile_before_long(Scene const& scene, StudyOptions const& options, Prediction const& prediction) {
-    constexpr double long_run = 60;  // [s]; compilers take half of that
-    bool const is_long = scene.parts.linkage != nullptr && options.backend->name() == "cpu" && prediction.least_seconds > long_run;
+void compile_before_long(Scene const& scene, StudyOptions const& options, Prediction const& prediction, StudyRun const& run) {
+    constexpr double long_run = 60;  // [s]; compilers take a third of that
+    double const share = static_cast<double>(run.work().todo.count()) / static_cast<double>(member_count(scene));
+    bool const may_be_long = scene.parts.linkage != nullptr && options.backend->name() == "cpu" && share * prediction.most_seconds > long_run;
     Isa const isa = compiled_isa(parse_isa(options.backend->isa()));
-    if (!is_long || compiled_linkage(scene.parts, isa) != nullptr) return;
-    tell("compiling the linkage, as slideway compile does: {} or more of integration are to come\n", duration_text(prediction.least_seconds));
+    if (!may_be_long || compiled_linkage(scene.parts, isa) != nullptr) return;
+    std::optional<Trial> const trial = try_members(scene, *options.backend, options.threads);
+    double const seconds = share * (trial ? trial->seconds : prediction.least_seconds);
+    if (seconds < long_run) return;
+    tell("compiling the linkage, as slideway compile does, for about {} of integration\n", duration_text(seconds));
     try {
         compile_modules({scene.path, linkage_header(scene.parts), "", {isa}, options.threads, nullptr});
     } catch (std::exception const& error) {
@@ -276,7 +280,7 @@ int execute(RunArguments const& arguments) {
         StudyRun study(scene, options);
         warn_of_losses(options, study);
         if (arguments.shows_progress() && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
-        if (!study.is_complete()) compile_before_long(scene, options, prediction);
+        if (!study.is_complete()) compile_before_long(scene, options, prediction, study);
         invited = true;
         ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));

@@ -1,4 +1,4 @@
-"""Laws and mechanisms of one's own, compiled for scenes."""
+"""Laws and mechanisms of one's own, and linkages, compiled for scenes."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from .temporary import temporary_folder
 
 @dataclass(frozen=True)
 class Module:
-    """A law or mechanism that scenes know by its name.
+    """A law or mechanism that scenes know by its name, or a linkage that they find by its bodies and joints.
 
     Attributes:
-        kind: "law", for contact.law, or "mechanism", for mechanism.kind.
+        kind: "law", for contact.law, "mechanism", for mechanism.kind, or "linkage".
         name: as scenes have it.
         source: hash of its source, which is part of a run's identity.
         files: one for each instruction set.
@@ -35,12 +35,12 @@ class Module:
 def compile(  # noqa: A001 (slideway.compile is named as the program's command)
     header: StrPath, output: StrPath | None = None, *, isa: str | Sequence[str] | None = None, program: StrPath | None = None
 ) -> list[Module]:
-    """Compiles a header with a contact law, a mechanism or both, so that scenes know them by name.
+    """Compiles a header with a contact law, a mechanism or both, so that scenes know them by name, or the linkage of a scene, so that it runs sooner.
 
     What such a header holds: docs/how_to/extending.md. It is compiled by the compiler that CXX names, else by g++.
 
     Args:
-        header: path of the header, or its text, in several lines; what the text includes in quotes is looked for nowhere but in slideway.
+        header: path of the header, or its text, in several lines; what the text includes in quotes is looked for nowhere but in slideway. Or path of the scene.
         output: folder of the modules, which scenes name: ``set={"modules.search": [folder]}``. Left out: one that every scene finds.
         isa: instruction sets; left out: all of the program that this machine has.
         program: path of the program; left out: SLIDEWAY_PROGRAM, else that of the package, else the PATH.

@@ -16,7 +16,7 @@ from .film import film
 from .impacts import rigid
 from .jobs import JOBS
 from .mechanisms import KEYS
-from .overviews import explain, layers, plots, report, stability
+from .overviews import explain, layers, linkage, plots, report, stability
 from .regimes import regimes
 largest = 200_000  # bytes of a picture
 # What makes the text of an SVG file, or a PNG file; its argument is the root of the repository.
@@ -36,6 +36,7 @@ PICTURES: dict[str, Callable[[Path], str | bytes]] = {
     "stability": stability,
     "layers": layers,
     "plots": plots,
+    "linkage": linkage,
     "explain": explain,
     "report": report,
 } | KEYS | JOBS

@@ -53,6 +53,11 @@ def plots(root: Path) -> str:
     return picture([replace(panel, legend="lower right") for panel in panels], height=7.4)
 
 
+def linkage(root: Path) -> str:
+    """The four-bar with loose pins at its start (docs/how_to/linkages.md)."""
+    return picture([panel_of(slideway.plot.mechanism, root / "scenes/four_bar_journals.toml", angle="40 deg")], height=3.6)
+
+
 def explain(root: Path) -> str:
     """The state with the largest force of a member, apex by apex (docs/how_to/command_line.md)."""
     result = run(root, "scenes/ensemble_starts.toml", "conservative", study__members=2, study__duration="40 ms", study__samples=4001,

@@ -317,6 +317,9 @@ class _Drawing:
         else:
             turn = float(link.get("direction", 0.0))
             off = 0.0 if link["kind"] == "prismatic" else self.factor * (link["height"] / 2 + self.times * link["clearance"])
+            if link["kind"] == "block":
+                along = turned([1.0, 0.0], turn)
+                at = at + along * float(along @ (self._end(link, "first")[0] - at))
         starts = np.linspace(-1.0, 1.0, 6)
         strokes = np.array([[[x * foot, -off], [(x - 0.3) * foot, -off - 0.35 * foot], [np.nan, np.nan]] for x in starts]).reshape(-1, 2)
         strokes = np.concatenate([strokes, [[-foot, -off], [foot, -off]]])
