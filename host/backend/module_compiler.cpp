@@ -322,11 +322,14 @@ std::optional<std::string> present(fs::path const& folder, ModuleKind kind, Isa 
 
 /// Before anything is compiled.
 void require_writable(fs::path const& folder) {
-    std::error_code none;
+    std::error_code failed, none;
+    fs::create_directories(folder, failed);
+    if (!failed && access(folder.c_str(), W_OK | X_OK) == 0) return;
+    std::string why = failed ? failed.message() : std::strerror(errno);
     auto at = folder;
     while (!fs::exists(at, none) && at.has_relative_path()) at = at.parent_path();
-    if (fs::is_directory(at, none) && access(at.c_str(), W_OK | X_OK) == 0) return;
-    throw FileError(fmt::format("{}: no module can be written there ({}); give another folder with -o", folder.string(), fs::is_directory(at, none) ? std::strerror(errno) : at.string() + " is no folder"));
+    if (!fs::is_directory(at, none)) why = at.string() + " is no folder";
+    throw FileError(fmt::format("{}: no module can be written there ({}); give another folder with -o", folder.string(), why));
 }
 
 /// Puts a module into its place; of its name no other source is left there.
@@ -404,7 +407,6 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
         if (std::string const objection = task.kind == ModuleKind::linkage ? "" : request.objection(task.kind, *module); !objection.empty()) throw SceneError(fmt::format("{}: {}", request.header, objection));
         names.emplace_back(name_of(task.kind, *module));
     }
-    fs::create_directories(folder, none);
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         CompiledModule& one = *std::ranges::find(all, tasks[i].kind, &CompiledModule::kind);
         place(tasks[i].made, folder, tasks[i].kind, names[i], tasks[i].isa, offer.source);

@@ -319,9 +319,10 @@ private:
         std::size_t const over = choice("over", load_arguments);
         given_.load.over = static_cast<LoadArgument>(over + 1);
         bool const of_slider = given_.load.over == LoadArgument::x || given_.load.over == LoadArgument::vx;
-        if (on_linkage_ && of_slider) refuse(*node_.find("over"), {"it is of a slider", "use time, crank_angle or crank_speed"});
+        bool const has_crank = info(scene_.parts.mechanism).drive == DriveKind::crank;
+        if (on_linkage_ && of_slider) refuse(*node_.find("over"), {"it is of a slider", has_crank ? "use time, crank_angle or crank_speed" : "use time"});
         bool const by_angle = given_.load.over == LoadArgument::crank_angle, by_crank = by_angle || given_.load.over == LoadArgument::crank_speed;
-        if (by_crank && info(scene_.parts.mechanism).drive != DriveKind::crank)
+        if (by_crank && !has_crank)
             refuse(*node_.find("over"), {fmt::format("a {} has no crank", info(scene_.parts.mechanism).name), on_linkage_ ? "use time" : "use time, x or vx"});
         Node const* const repeats = node_.find("repeats");
         bool const ever = repeats == nullptr ? by_angle : read_boolean(*repeats);

@@ -42,7 +42,7 @@ TEST(Budgets, OfLines) {
     EXPECT_LE(Layer("kernels/linkage").lines(), 1'738u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'267u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'996u);
-    EXPECT_LE(Layer("host").lines(), 33'345u);
+    EXPECT_LE(Layer("host").lines(), 33'351u);
     EXPECT_LE(Layer("host/store").lines(), 4'464u);
 }
 

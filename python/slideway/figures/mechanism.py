@@ -88,7 +88,10 @@ def mechanism(
             raise SlidewayError("angle is for scenes; of a result give the time of a sample")
         run = stored(given, member)
         times = run.state["time"]
-        at = 0 if time is None else int(np.nanargmin(np.abs(times - float(arguments.numbers(time, "time")))))
+        wanted = times[0] if time is None else float(arguments.numbers(time, "time"))
+        if not times[0] <= wanted <= np.nanmax(times):
+            raise SlidewayError(f"time is {wanted:.6g}; the samples are from {times[0]:.6g} to {np.nanmax(times):.6g} s")
+        at = int(np.nanargmin(np.abs(times - wanted)))
         return panel(replace(run, state={name: values[at] for name, values in run.state.items()}, title=f"{run.title} at {times[at]:.6g} s"))
     if member is not None or time is not None:
         raise SlidewayError("member and time are for results; of a scene give the angle at which it starts")
