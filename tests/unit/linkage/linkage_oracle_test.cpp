@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "host/backend/backend.hpp"
+#include "host/backend/linkage_numbers.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/linkages.hpp"
 #include "host/config/scene.hpp"
@@ -370,7 +371,9 @@ bool starts(Description const& of) {
         bool const is_free = std::ranges::any_of(plan.closure, plan.closure + plan.closures, [&](LinkageClosure const& of) {
             return of.has_clearance() && std::ranges::any_of(of.body, [&](int body) { return body != LinkageBody::ground && !is_held[static_cast<std::size_t>(body)]; });
         });
-        return is_free && !std::isnan(start_of(scene.parts.mechanism, member_inputs(scene, 0))[0]);
+        // Elsewhere than where they were drawn all joints may lie at the ends of their clearances, and nothing shakes them.
+        auto const start = assembled(plan, member_inputs(scene, 0));
+        return is_free && start.fault == AssemblyFault::none && std::abs(start.distance) < 1e-9;
     } catch (SceneError const&) {
         return false;  // a dead centre, or one coordinate too many
     }
