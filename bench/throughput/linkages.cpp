@@ -11,6 +11,7 @@
 #include "host/backend/linkage_modules.hpp"
 #include "host/config/scene.hpp"
 #include "tests/models/by_isa.hpp"
+#include "tests/support/planar_linkage.hpp"
 
 namespace slideway {
 
@@ -19,52 +20,14 @@ SLIDEWAY_BY_ISA(LinkageKernelMaker, linkage_kernels_of_bench)
 namespace bench {
 namespace {
 
-constexpr char const* planar = R"(
-schema = 1
-[mechanism]
-kind = "planar_slider_crank"
-crank_length = 0.153
-rod_length = 0.306
-crank_speed = 150
-crank_mass = 0.038
-rod_mass = 0.038
-slider_mass = 0.076
-crank_inertia = 7.4e-5
-rod_inertia = 5.9e-4
-slider_inertia_z = 2.7e-6
-[drive]
-kind = "free"
-[joint]
-slider_length = 0.1
-slider_height = 0.05
-clearance = 1e-3
-)";
-constexpr char const* linkage = R"(
-schema = 1
-[mechanism]
-kind = "linkage"
-crank_speed = 150
-[drive]
-kind = "free"
-body = "crank"
-[body]
-crank = { mass = 0.038, inertia = 7.4e-5, center_x = 0.0765 }
-rod = { mass = 0.038, inertia = 5.9e-4, center_x = 0.153 }
-slider = { mass = 0.076, inertia = 2.7e-6 }
-[link]
-shaft = { kind = "revolute", first = "ground", second = "crank" }
-crank_pin = { kind = "revolute", first = "crank", second = "rod", first_x = 0.153 }
-wrist_pin = { kind = "revolute", first = "rod", second = "slider", first_x = 0.306 }
-way = { kind = "block", first = "slider", second = "ground", clearance = 1e-3, length = 0.1, height = 0.05, stiffness = 1e11 }
-)";
-constexpr char const* rest = R"(
+constexpr char const* friction_and_restitution = R"(
 [friction]
 static = 0.1
 kinetic = 0.05
-[study]
-duration = 0.1
 [contact]
 restitution = 0.4
+[study]
+duration = 0.1
 )";
 
 /// Members in like states, in flight or with both lower corners pressed in.
@@ -75,8 +38,10 @@ struct States {
 };
 
 States states_of(bool is_linkage, bool touches) {
-    std::string const text = std::string(is_linkage ? linkage : planar) + rest + (is_linkage ? "" : "point_stiffness = 1e11\n");
-    States all{parse_scene(text, "bench.toml"), {}, {}};
+    Overrides const friction{{"friction.static", "0.1"}, {"friction.kinetic", "0.05"}};
+    States all{is_linkage ? parse_scene(testing::planar_linkage() + friction_and_restitution, "bench.toml")
+                          : read_scene(SLIDEWAY_SCENES "/planar_flores.toml", friction),
+               {}, {}};
     for (int i = 0; i < 64; ++i) {
         all.members.push_back(all.scene.inputs);
         double const crank = 0.3 + 0.01 * i, y = touches ? -1e-3 - 1e-7 * (1 + i % 5) : 1e-5 * (i % 7), tilt = touches ? 1e-9 : 1e-5 * (i % 4);
@@ -105,7 +70,8 @@ void register_linkages() {
     for (bool const touches : {false, true}) {
         for (Isa const isa : runnable_isas()) {
             LinkageKernels const kernels = linkage_kernels_of_bench_by_isa(isa)();
-            struct { char const* name; LinkageKernel kernel; } const ways[] = {{"planar kernel", kernels.planar}, {"tables", kernels.tables}, {"compiled", kernels.compiled}};
+            struct { char const* name; LinkageKernel kernel; } const ways[] = {
+                {"planar kernel", kernels.planar}, {"tables", kernels.tables}, {"compiled", kernels.compiled}};
             for (auto const& [name, kernel] : ways) {
                 auto const of = std::make_shared<States const>(states_of(&kernel != &ways[0].kernel, touches));
                 auto const full = std::string("linkage/") + name + (touches ? ", contact/" : ", flight/") + std::string(name_of(isa));

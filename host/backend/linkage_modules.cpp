@@ -13,11 +13,6 @@
 #include "host/base/error.hpp"
 
 namespace slideway {
-namespace {
-
-using Numbers = std::array<int, sizeof(LinkagePlan) / sizeof(int)>;
-
-}  // namespace
 
 LinkagePlan compiled_plan(Parts const& parts) {
     LinkagePlan plan = *parts.linkage;
@@ -29,6 +24,7 @@ LinkagePlan compiled_plan(Parts const& parts) {
 std::string linkage_module_name(LinkagePlan const& plan) { return fmt::format("plan_{:016x}", fnv1a(std::as_bytes(std::span(&plan, 1)))); }
 
 std::string linkage_header(Parts const& parts) {
+    using Numbers = std::array<int, sizeof(LinkagePlan) / sizeof(int)>;
     return fmt::format(R"(// The plan of a linkage, as a scene has it: the numbers of a LinkagePlan, one after the other.
 #include <array>
 #include <bit>

@@ -144,7 +144,7 @@ void run_compiler(Toolchain const& tools, Words const& arguments, std::string co
 
 /// What a header says of itself.
 struct Offer {
-    std::optional<std::string> law, mechanism, linkage;
+    std::array<std::optional<std::string>, module_kinds.size()> types;  // by ModuleKind
     std::string source;  // its hash
     friend bool operator==(Offer const&, Offer const&) = default;
 };
@@ -214,8 +214,9 @@ Offer offer_of(Toolchain const& tools, Isa isa, std::string const& header, fs::p
     arguments.push_back(file.string());
     run_compiler(tools, arguments, header, work / "offer.log");
     std::string const defined = text_of(macros);
-    Offer const offer{definition(defined, "SLIDEWAY_LAW"), definition(defined, "SLIDEWAY_MECHANISM"), definition(defined, "SLIDEWAY_LINKAGE"), hash_of(tools, dependencies(text_of(rule)))};
-    if (!offer.law && !offer.mechanism && !offer.linkage)
+    Offer const offer{{definition(defined, "SLIDEWAY_LAW"), definition(defined, "SLIDEWAY_MECHANISM"), definition(defined, "SLIDEWAY_LINKAGE")},
+                      hash_of(tools, dependencies(text_of(rule)))};
+    if (std::ranges::none_of(offer.types, &std::optional<std::string>::has_value))
         throw SceneError(fmt::format("{}: it offers nothing; end it with `#define SLIDEWAY_LAW Type`, or `#define SLIDEWAY_MECHANISM Type`", header));
     return offer;
 }
@@ -382,7 +383,7 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
     std::vector<CompiledModule> all;
     std::vector<Task> tasks;
     for (ModuleKind const kind : module_kinds) {
-        if (!(kind == ModuleKind::law ? offer.law : kind == ModuleKind::mechanism ? offer.mechanism : offer.linkage)) continue;
+        if (!offer.types[static_cast<std::size_t>(kind)]) continue;
         CompiledModule& one = all.emplace_back(CompiledModule{kind, "", offer.source, {}, true});
         for (Isa const isa : isas) {
             if (auto const name = present(folder, kind, isa, offer.source)) {
@@ -404,7 +405,7 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
         std::string why;
         KernelModule const* const module = open_own_module(task.made, why);
         if (module == nullptr) throw DeviceError(why);
-        if (std::string const objection = task.kind == ModuleKind::linkage ? "" : request.objection(task.kind, *module); !objection.empty()) throw SceneError(fmt::format("{}: {}", request.header, objection));
+        if (std::string const objection = request.objection(task.kind, *module); !objection.empty()) throw SceneError(fmt::format("{}: {}", request.header, objection));
         names.emplace_back(name_of(task.kind, *module));
     }
     for (std::size_t i = 0; i < tasks.size(); ++i) {

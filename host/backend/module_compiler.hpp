@@ -23,7 +23,7 @@ struct CompileRequest {
     std::string folder;      // where the modules go; "": the user's own, which every scene finds
     std::vector<Isa> isas;   // that this machine runs; none: all of this program
     int threads = 1;         // how many compilers may run at once
-    std::string (*objection)(ModuleKind, KernelModule const&);  // why a law or mechanism cannot be named in scenes; "" of one that can
+    std::string (*objection)(ModuleKind, KernelModule const&);  // why a module cannot be named in scenes; "" of one that can
 };
 
 /// What came of it.

@@ -213,7 +213,7 @@ void compile_before_long(Scene const& scene, StudyOptions const& options, Predic
     if (seconds < long_run) return;
     tell("compiling the linkage, as slideway compile does, for about {} of integration\n", duration_text(seconds));
     try {
-        compile_modules({scene.path, linkage_header(scene.parts), "", {isa}, options.threads, nullptr});
+        compile_modules({scene.path, linkage_header(scene.parts), "", {isa}, options.threads, &objection_to});
     } catch (std::exception const& error) {
         tell("warning: {}; it runs by tables\n", error.what());
     }

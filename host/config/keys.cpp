@@ -103,6 +103,7 @@ std::span<Key const* const> every_key() {
 }
 
 std::string objection_to(ModuleKind kind, KernelModule const& module) {
+    if (kind == ModuleKind::linkage) return "";  // nobody names it
     bool const is_law = kind == ModuleKind::law;
     std::string const name = name_of(kind, module);
     auto const names = is_law ? law_names() : mechanism_names();

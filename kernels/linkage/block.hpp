@@ -38,6 +38,12 @@ template <class Motion> struct BlockPose {
     SLIDEWAY_FN Vec2<Real> to_walls(Vec2<Real> const& v) const { return is_level ? v : Vec2<Real>{dot(along, v), cross(along, v)}; }
     SLIDEWAY_FN Vec2<Real> from_walls(Real x, Real y) const { return is_level ? Vec2<Real>{x, y} : add(x * along, y, normal()); }
     SLIDEWAY_FN Vec2<Real> normal() const { return across(along); }
+    /// A force on the block at its centre, and at the same place the other way on the walls.
+    SLIDEWAY_FN void push(Motion& motion, int closure, Vec2<Real> const& force) const {
+        auto const& of = motion.plan()->closure[closure];
+        motion.push(of.body[0], centre.arm, force);
+        motion.push(of.body[1], middle.arm + (centre.place - middle.place), Real(-1.0) * force);
+    }
 };
 
 /// A block of one body between two walls of another: corners as those of the planar slider-crank, with its point law (model.md 7).
@@ -60,12 +66,8 @@ template <class Motion> struct BlockInWalls {
         auto total = corners.push_of_nothing();
         corners.add_normal(force, total);
         Real const loss = has_friction ? corners.add_friction(force, pose.velocity.x, p, total) : Real(0.0);
-        auto const pushed = pose.from_walls(total.fx, total.fy);
-        // Both at the block's centre.
-        auto const at_walls = pose.middle.arm + (pose.centre.place - pose.middle.place);
-        motion.push(of.body[0], pose.centre.arm, pushed);
+        pose.push(motion, closure, pose.from_walls(total.fx, total.fy));
         motion.twist(of.body[0], total.torque);
-        motion.push(of.body[1], at_walls, Real(-1.0) * pushed);
         motion.twist(of.body[1], negated(total.torque));
         if (told == nullptr) return;
         told->normal_force[of.pair / 4] = force;

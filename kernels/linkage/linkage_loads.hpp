@@ -104,10 +104,7 @@ private:
             motion_.turn(load.coordinate, negated(pull(load, i, motion_.place(load.coordinate), motion_.rate(load.coordinate))));
         } else {
             BlockPose<Motion> const pose(motion_, load.closure);
-            auto const& of = motion_.plan()->closure[load.closure];
-            auto const force = pull(load, i, pose.place.x, pose.velocity.x) * pose.along;
-            motion_.push(of.body[0], pose.centre.arm, Real(-1.0) * force);
-            motion_.push(of.body[1], pose.middle.arm + (pose.centre.place - pose.middle.place), force);
+            pose.push(motion_, load.closure, negated(pull(load, i, pose.place.x, pose.velocity.x)) * pose.along);
         }
     }
 

@@ -50,12 +50,12 @@ template <class Plan> struct LinkageModel : ContactLanes<LinkageModel<Plan>>, Co
     SLIDEWAY_HD bool is_driven() const { return plan.is_given(this->block.drive); }
     SLIDEWAY_HD unsigned prescribed() const { return is_driven() ? 0b11u : 0u; }
     SLIDEWAY_HD LinkageParameters<double> parameters(Inputs const& in) const {
-        auto p = linkage_parameters(*plan.operator->(), in);
+        auto p = linkage_parameters(*plan, in);
         put_linkage_loads(this->block.loads, in, p);
         return p;
     }
     SLIDEWAY_HD void initial_state(Inputs const& in, double* state) const {
-        put_linkage_start(*plan.operator->(), in, state);
+        put_linkage_start(*plan, in, state);
     }
     SLIDEWAY_HD void scales(LinkageParameters<double> const& p, double* scale) const {
         for (int c = 0; c < plan->coordinates; ++c) {

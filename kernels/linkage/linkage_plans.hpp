@@ -16,6 +16,7 @@ struct PlanTable {
     LinkagePlan const* table = nullptr;
 
     explicit constexpr PlanTable(LinkagePlan const& plan) : table(&plan) {}
+    SLIDEWAY_FN LinkagePlan const& operator*() const { return *table; }
     SLIDEWAY_FN LinkagePlan const* operator->() const { return table; }
     /// Whether the drive gives coordinate 0.
     SLIDEWAY_FN bool is_given(DrivePlan const& drive) const { return table->is_driven && !drive.turns_freely(); }
@@ -46,6 +47,7 @@ template <class Source> struct PlanConstant {
     static constexpr int room = std::max({Source::plan.coordinates, Source::plan.bodies, Source::plan.closures, 2 * Source::plan.loops()});
 
     explicit constexpr PlanConstant(LinkagePlan const&) {}
+    SLIDEWAY_FN constexpr LinkagePlan const& operator*() const { return Source::plan; }
     SLIDEWAY_FN constexpr LinkagePlan const* operator->() const { return &Source::plan; }
     SLIDEWAY_FN static constexpr bool is_given(DrivePlan const&) { return Source::plan.is_driven && !Source::plan.turns_freely; }
     SLIDEWAY_FN static constexpr bool is_loaded(LoadList const&) { return Source::plan.is_loaded; }

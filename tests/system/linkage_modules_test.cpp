@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/planar_linkage.hpp"
 #include "tests/system/own_module_fixture.hpp"
 
 namespace slideway::testing::linkage_modules_test {
@@ -111,23 +112,7 @@ TEST_F(LinkageModules, HaveTheBitsOfTheTables) {
 
 /// A trial step of member 90 turns its slider beyond where angles have a sine: what follows must not depend on whether members beside it touch.
 TEST_F(LinkageModules, NorTheTablesMixMembersOfAPack) {
-    write("s.toml", R"(
-schema = 1
-[mechanism]
-kind = "linkage"
-crank_speed = 150
-[drive]
-kind = "free"
-body = "crank"
-[body]
-crank = { mass = 0.038, inertia = 7.4e-5, center_x = 0.0765 }
-rod = { mass = 0.038, inertia = 5.9e-4, center_x = 0.153 }
-slider = { mass = 0.076, inertia = 2.7e-6 }
-[link]
-shaft = { kind = "revolute", first = "ground", second = "crank" }
-crank_pin = { kind = "revolute", first = "crank", second = "rod", first_x = 0.153 }
-wrist_pin = { kind = "revolute", first = "rod", second = "slider", first_x = 0.306 }
-way = { kind = "block", first = "slider", second = "ground", clearance = 1e-3, length = 0.1, height = 0.05, stiffness = 1e11 }
+    write("s.toml", planar_linkage() + R"(
 [contact]
 restitution = 0.4
 [friction]

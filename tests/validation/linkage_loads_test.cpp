@@ -13,6 +13,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/library/slideway.hpp"
+#include "tests/support/planar_linkage.hpp"
 
 namespace slideway::linkage_loads_test {
 namespace {
@@ -197,11 +198,7 @@ TEST(LinkageLoads, KeepTheirBooks) {
 /// The same loads, spring and stop on the slider and the crank of the planar slider-crank, between walls that it does not reach.
 TEST(LinkageLoads, MoveAsThePlanarSliderCrankUnderTheSame) {
     std::string const description =
-        "schema = 1\n[mechanism]\nkind = \"linkage\"\ncrank_speed = 150\n[drive]\nkind = \"free\"\nbody = \"crank\"\n"
-        "[body.crank]\nmass = 0.038\ninertia = 7.4e-5\ncenter_x = 0.0765\n[body.rod]\nmass = 0.038\ninertia = 5.9e-4\ncenter_x = 0.153\n[body.slider]\nmass = 0.076\ninertia = 2.7e-6\n"
-        "[link.shaft]\nkind = \"revolute\"\nfirst = \"ground\"\nsecond = \"crank\"\n[link.crank_pin]\nkind = \"revolute\"\nfirst = \"crank\"\nsecond = \"rod\"\nfirst_x = 0.153\n"
-        "[link.wrist_pin]\nkind = \"revolute\"\nfirst = \"rod\"\nsecond = \"slider\"\nfirst_x = 0.306\n"
-        "[link.way]\nkind = \"block\"\nfirst = \"slider\"\nsecond = \"ground\"\nclearance = 0.2\nlength = 0.1\nheight = 0.05\nstiffness = 1e11\n"
+        testing::planar_linkage(0.2) +
         "[load.pull]\non = \"slider\"\nforce_x = 60\nforce_y = 9\npoint_x = 0.004\npoint_y = 0.002\ntorque = 0.003\nframe = \"body\"\n[load.brake]\non = \"crank\"\ntorque = -0.3\n"
         "[spring.back]\non = \"slider\"\nanchor_x = 0.1\nanchor_y = 0.2\npoint_y = 0.001\nstiffness = 400\ndamping = 1.5\nrest_length = 0.2\npreload = 2\n"
         "[stop.front]\nlink = \"way\"\nblocks = \"-x\"\nposition = 0.25\nstiffness = 3e4\ndissipation = 0.4\n[contact]\nrestitution = 0.4\n[integrator]\nrtol = 1e-10\n";

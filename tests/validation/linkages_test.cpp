@@ -10,6 +10,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/library/slideway.hpp"
+#include "tests/support/planar_linkage.hpp"
 
 namespace slideway::linkages_test {
 namespace {
@@ -68,14 +69,6 @@ TEST(Linkages, OfIdealJointsTakeNoWorkInATurn) {
 }
 
 TEST(Linkages, MoveAsThePlanarSliderCrankThatTheyDescribe) {
-    std::string const description =
-        "schema = 1\n[mechanism]\nkind = \"linkage\"\ncrank_speed = 150\n[drive]\nkind = \"free\"\nbody = \"crank\"\n"
-        "[body.crank]\nmass = 0.038\ninertia = 7.4e-5\ncenter_x = 0.0765\n[body.rod]\nmass = 0.038\ninertia = 5.9e-4\ncenter_x = 0.153\n"
-        "[body.slider]\nmass = 0.076\ninertia = 2.7e-6\n"
-        "[link.shaft]\nkind = \"revolute\"\nfirst = \"ground\"\nsecond = \"crank\"\n"
-        "[link.crank_pin]\nkind = \"revolute\"\nfirst = \"crank\"\nsecond = \"rod\"\nfirst_x = 0.153\n"
-        "[link.wrist_pin]\nkind = \"revolute\"\nfirst = \"rod\"\nsecond = \"slider\"\nfirst_x = 0.306\n"
-        "[link.way]\nkind = \"block\"\nfirst = \"slider\"\nsecond = \"ground\"\nclearance = 0.001\nlength = 0.1\nheight = 0.05\nstiffness = 1e11\noffset_y = {}\ntilt = {}\n";
     std::string const rest = "[contact]\nrestitution = 0.4\n{}[integrator]\nrtol = 1e-10\n[study]\nduration = 0.06\nsamples = 61\n"
                              "quantities = [\"contact_onsets\", \"damping_loss\", \"friction_loss\", \"normal_force\"]\n";
     for (std::string const friction : {"", "[friction]\nstatic = 0.1\nkinetic = 0.05\n"}) {
@@ -84,7 +77,7 @@ TEST(Linkages, MoveAsThePlanarSliderCrankThatTheyDescribe) {
                              {"initial.pitch", fmt::format("{}", pitch)}, {"friction.enabled", friction.empty() ? "false" : "true"}, {"friction.static", "0.1"}, {"friction.kinetic", "0.05"},
                              {"study.quantities", "[\"contact_onsets\", \"damping_loss\", \"friction_loss\", \"normal_force\"]"}};
         Result const known = Ensemble::read(SLIDEWAY_SCENES "/planar_flores.toml", start).run();
-        Result const described = Ensemble::parse(fmt::format(fmt::runtime(description), y, pitch) + fmt::format(fmt::runtime(rest), friction)).run();
+        Result const described = Ensemble::parse(testing::planar_linkage() + fmt::format("offset_y = {}\ntilt = {}\n", y, pitch) + fmt::format(fmt::runtime(rest), friction)).run();
         EXPECT_EQ(column(described, "contact_onsets"), column(known, "contact_onsets"));
         EXPECT_GT(column(known, "contact_onsets")[0], 3);
         EXPECT_NEAR(column(described, "damping_loss")[0], column(known, "damping_loss")[0], 1e-7);
